@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/base/vec.h"
+
+/// Units: exitance and emission in lm/m2, irradiance in lux, luminance L = B / pi in cd/m2, flux in lm.
+namespace fluxwalk::base {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// Photometric value of a colour: Y = .2126 R + .7152 G + .0722 B.
+inline float luminance(const Rgb& c) {
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
+
+/// Mean of the three channels: the scalar in which oracles weigh errors (DESIGN: RMS over channels).
+inline float channelMean(const Rgb& c) {
+    return (c.r + c.g + c.b) * (1.0f / 3.0f);
+}
+
+}  // namespace fluxwalk::base

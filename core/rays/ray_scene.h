@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/base/ids.h"
+#include "core/base/parallel.h"
+#include "core/scene/scene.h"
+
+/// Rays against the original objects, through Embree (only here).
+namespace fluxwalk::rays {
+
+using base::Vec2d;
+using base::Vec3;
+using base::Vec3d;
+
+/// Part of a line: origin + t * direction for t in (tNear, tFar). The direction need not have unit length.
+struct Ray {
+    Vec3 origin{};
+    float tNear = 0.0f;
+    Vec3 direction{};
+    float tFar = 1.0f;
+};
+
+struct Hit {
+    float t = 0.0f;
+    base::ObjectId object{};
+    std::uint32_t patch = 0;
+    bool back = false;  ///< met from behind the surface's normal
+};
+
+/// Origins are lifted off their surface by this part of the scene's extent: 250 times the rounding of float,
+/// and less than a quarter of the thinnest wall worth modelling.
+inline constexpr double kLift = 0x1.0p-16;
+
+class RayScene {
+  public:
+    /// Keeps references to the scene's surfaces and images: `scene` must outlive it.
+    RayScene(const scene::Scene& scene, const base::Executor& executor);
+    ~RayScene();
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
+
+    /// Lift in metres for this scene.
+    double lift() const { return lift_; }
+
+    /// Segment between two surface points, both lifted along their normals (unit, towards the side that sees
+    /// the other).
+    Ray segment(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& to, const Vec3d& toNormal) const;
+    /// Half-line from a lifted surface point.
+    Ray halfLine(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& direction) const;
+
+    /// Nearest hit; nothing also for rays that are not finite (which Embree could not bear).
+    std::optional<Hit> closest(const Ray& ray) const;
+    bool isOccluded(const Ray& ray) const;
+    /// Occlusion of a bundle of rays with common ends or directions; blocked[i] becomes 1 or 0. Best with 16
+    /// to 256 rays.
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    double lift_ = 0.0;
+};
+
+}  // namespace fluxwalk::rays

@@ -1,0 +1,35 @@
+#include "core/surface/surface.h"
+
+#include "core/surface/region.h"
+
+namespace fluxwalk::surface {
+
+Vec2d Surface::splitPoint(std::uint32_t /*patch*/, const Vec2d& a, const Vec2d& b) const {
+    return 0.5 * (a + b);
+}
+
+double Surface::area(std::uint32_t patch, const Region& region) const {
+    // 5 x 5 Gauss-Legendre points on the unit square; triangles are reached through the collapsed square.
+    constexpr std::array<double, 5> kNodes{0.046910077030668004, 0.23076534494715845, 0.5,
+                                           0.76923465505284155, 0.95308992296933200};
+    constexpr std::array<double, 5> kWeights{0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                             0.23931433524968324, 0.11846344252809454};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kNodes.size(); ++i) {
+        for (std::size_t j = 0; j < kNodes.size(); ++j) {
+            const RegionPoint at = mapToRegion(region, {kNodes[i], kNodes[j]});
+            sum += kWeights[i] * kWeights[j] * at.jacobian * evaluate(patch, at.uv).jacobian;
+        }
+    }
+    return sum;
+}
+
+std::optional<double> Surface::exactKernel(bool /*back*/) const {
+    return std::nullopt;
+}
+
+TriangleView Surface::triangles() const {
+    return {};
+}
+
+}  // namespace fluxwalk::surface
