@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+/// What the user may turn. Every value has a unit and a default; cli and viewer show the same table.
+namespace fluxwalk::solve {
+
+/// Decides which links are refined (ALGORITHMS 1.3).
+enum class OracleKind : std::uint8_t {
+    bounded,  ///< spread of kernel, visibility and radiosity, weighed by power (Schaefer section 1;
+              ///< Lischinski et al. 1994)
+    bfa,      ///< B F A: the transferred power itself (Hanrahan et al. 1991)
+    bf        ///< B F: the transferred irradiance itself
+};
+
+struct Options {
+    /// Requested error p: RMS of E - E* over all sides that light reaches, as a part of the mean irradiance.
+    double error = 0.02;
+    OracleKind oracle = OracleKind::bounded;
+    /// Largest error of a link in lux (bf: of the receiver; bfa and bounded: spread over the whole scene's
+    /// area). 0 chooses it by a closed loop that ends at `error`.
+    double threshold = 0.0;
+    /// No element is split below this area in m2. 0 means 1e-7 of the scene's area.
+    double minArea = 0.0;
+    /// Scales the coefficients of closed scenes symmetrically until every row sums to 1, by 5 % at most.
+    bool rowScaling = false;
+    std::uint64_t seed = 1;
+    /// Seconds after which the solver stops with what it has; 0 for none.
+    double timeLimit = 0.0;
+};
+
+}  // namespace fluxwalk::solve
