@@ -18,4 +18,36 @@ struct BuiltInScene {
 std::span<const BuiltInScene> builtInScenes();
 std::optional<Scene> buildScene(std::string_view name);
 
+/// The Cornell box in metres (geometry published by Cornell University, ALGORITHMS 3.10; y up, the camera
+/// looks along +z). The lamp fills a hole of the ceiling and has `lampExitance` in lm/m2. Objects, in this
+/// order: floor, ceiling, back wall, right wall (green), left wall (red), short block, tall block, lamp. A
+/// block's patches: top, then its four sides; it has no bottom.
+Scene buildCornellBox(const Rgb& lampExitance);
+
+/// Closed room of the Cornell box with its two blocks and, if asked for, a sphere that floats: every surface
+/// has the same reflectance and emits 1 lm/m2, so that B = 1 / (1 - reflectance) at every point. The blocks
+/// emit inwards too, as the floor under them does.
+Scene buildFurnace(float reflectance, bool withSphere);
+
+/// Two unit squares that face each other at `gap` metres. Objects: source (emits 1 lm/m2), receiver. Without
+/// reflection the receiver's mean irradiance is the form factor.
+Scene buildParallelSquares(double gap, float reflectance = 0.0f);
+
+/// Two unit squares that share an edge and include `degrees`. Objects: source (emits 1 lm/m2), receiver.
+Scene buildWedge(double degrees, float reflectance = 0.0f);
+
+/// CIE 171:2006 test 5.8: a cube of 4 m with an isotropic point source of 10,000 lm in its centre.
+Scene buildCie58(float reflectance);
+
+/// Two parallel plates, 1 m wide and 1 m apart, that face each other and emit 1 lm/m2; each consists of
+/// `segments` patches along its `length` in metres. They stand for infinite strips.
+Scene buildStrips(double length, unsigned segments, float reflectance);
+
+/// Two furnished rooms with a door between them; the lamp hangs in the first.
+Scene buildTwoRooms();
+
+/// A lamp in a sealed box of zero wall thickness that hangs in a room: nothing outside may be lit. Objects:
+/// room, box, lamp.
+Scene buildLampBox();
+
 }  // namespace fluxwalk::scene
