@@ -2,16 +2,12 @@
 
 #include <cstdint>
 
+#include "core/transport/oracle.h"
+
 /// What the user may turn. Every value has a unit and a default; cli and viewer show the same table.
 namespace fluxwalk::solve {
 
-/// Decides which links are refined (ALGORITHMS 1.3).
-enum class OracleKind : std::uint8_t {
-    bounded,  ///< spread of kernel, visibility and radiosity, weighed by power (Schaefer section 1;
-              ///< Lischinski et al. 1994)
-    bfa,      ///< B F A: the transferred power itself (Hanrahan et al. 1991)
-    bf        ///< B F: the transferred irradiance itself
-};
+using transport::OracleKind;
 
 struct Options {
     /// Requested error p: RMS of E - E* over all sides that light reaches, as a part of the mean irradiance.

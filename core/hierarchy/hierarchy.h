@@ -1,0 +1,154 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/ids.h"
+#include "core/hierarchy/reach.h"
+#include "core/rays/spatial_tree.h"
+#include "core/scene/texture.h"
+#include "core/surface/region.h"
+
+/// One tree over everything that exchanges light: clusters above patches, elements below, light sources without area beside.
+namespace fluxwalk::hierarchy {
+
+using base::NodeId;
+using base::Rgb;
+using base::Vec3;
+using base::Vec3d;
+
+enum class NodeKind : std::uint8_t { cluster, element, light, sky };
+
+/// Where an element sits on its object. Names, not indices: equal in every run.
+struct ElementName {
+    std::uint32_t object = 0;
+    std::uint32_t patch = 0;
+    bool back = false;
+    surface::Path path = surface::kRootPath;
+};
+
+/// What transport asks of a node's shape.
+struct Shape {
+    Vec3 center{};             ///< of the bounding sphere
+    float radius = 0.0f;
+    Vec3 axis{0, 0, 1};        ///< of the cone of normals, towards the side that takes part
+    float halfAngle = 0.0f;    ///< radians
+    float area = 0.0f;         ///< true area in m2 (clusters: sum)
+    /// Part of the area outside other solids, as 4 x 4 cells of the element's region: bit 4 j + i is the cell with s in [i/4, (i+1)/4).
+    std::uint16_t exposedCells = 0xffff;
+    /// Part of the area that receives and sends: from the cells (leaves) or the children (area means).
+    float exposed = 1.0f;
+    std::uint8_t cornerCount = 0;  ///< elements: 3 or 4
+    bool isPlanar = true;
+    /// Elements: corners on the surface, counter-clockwise seen from the side that takes part.
+    std::array<Vec3, 4> corners{};
+
+    float exposedArea() const { return area * exposed; }
+};
+
+/// Light of a node. Elements: means over the exposed area. Light sources: `radiosity` is intensity (cd), illuminance of a directional
+/// light (lux) or the sky's illuminance on a free horizontal plane (lux).
+struct Light {
+    Rgb radiosity{0.0f};    ///< lm/m2
+    Rgb gathered{0.0f};     ///< irradiance through this node's own links, lux
+    Rgb irradiance{0.0f};   ///< with that of all ancestors (leaves) or pulled from the children, lux
+    Rgb reflectance{0.0f};
+    Rgb emission{0.0f};     ///< lm/m2
+    float spread = 0.0f;    ///< half the range of the channel-mean radiosity within the node, lm/m2
+};
+
+class Hierarchy {
+  public:
+    /// Builds patches of the reached sides and the cluster tree above them.
+    Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor, std::uint64_t seed);
+
+    std::size_t nodeCount() const { return parent_.size(); }
+    std::size_t leafCount() const { return leafCount_; }
+    /// Bytes held for each node.
+    static std::size_t bytesPerNode();
+
+    NodeId root() const { return root_; }
+    NodeKind kind(NodeId id) const { return kind_[index(id)]; }
+    NodeId parent(NodeId id) const { return parent_[index(id)]; }
+    bool isLeaf(NodeId id) const { return firstChild_[index(id)] == NodeId::none; }
+    /// Children are one block: 2 of a cluster, 4 of an element.
+    NodeId child(NodeId id, unsigned i) const { return NodeId{index(firstChild_[index(id)]) + i}; }
+    unsigned childCount(NodeId id) const { return kind(id) == NodeKind::cluster ? 2 : 4; }
+
+    ElementName name(NodeId id) const;
+    /// Hash of the name: the key of everything random about this node.
+    std::uint64_t key(NodeId id) const;
+    surface::Region region(NodeId id) const;
+    const surface::Surface& surfaceOf(NodeId id) const;
+    /// Index into Scene::lights.
+    std::uint32_t lightIndex(NodeId id) const { return object_[index(id)]; }
+
+    const Shape& shape(NodeId id) const { return shape_[index(id)]; }
+    const Light& light(NodeId id) const { return light_[index(id)]; }
+    Light& light(NodeId id) { return light_[index(id)]; }
+
+    /// Nodes at the top of the elements (one for each patch and reached side), in depth-first order of the clusters.
+    std::span<const NodeId> patches() const { return patches_; }
+    /// Light sources without area, and the sky.
+    std::span<const NodeId> sources() const { return sources_; }
+    /// Patch node of a patch and side, or NodeId::none where light does not reach it.
+    NodeId patchNode(std::uint32_t object, std::uint32_t patch, bool back) const;
+
+    /// Whether a leaf may be quartered: an element larger than `minArea` (m2) above the depth limit.
+    bool canSplit(NodeId id, double minArea) const;
+    /// Quarters leaves. Children take over their parent's irradiance. Ids must be distinct leaves; the order fixes the new ids.
+    void split(std::span<const NodeId> leaves, const base::Executor& executor);
+
+    const ReachedSides& reached() const { return reached_; }
+    const scene::Scene& scene() const { return *scene_; }
+    const scene::TextureSet& textures() const { return textures_; }
+    /// Boxes of all patches of all objects, reached or not, for shafts; `item` indexes shaftItems().
+    const rays::SpatialTree& shaftTree() const { return shaftTree_; }
+    struct PatchRef {
+        std::uint32_t object = 0;
+        std::uint32_t patch = 0;
+    };
+    std::span<const PatchRef> shaftItems() const { return shaftItems_; }
+    /// Total area of the reached sides in m2, hidden parts left out.
+    double totalArea() const { return totalArea_; }
+
+  private:
+    void collectItems(const base::Executor& executor);
+    void resize(std::size_t count);
+    void shapeElement(NodeId id, const surface::Region& region);
+    void refreshExposure(NodeId id);
+    void shapePatches(const base::Executor& executor);
+    void shapeClusters();
+
+    const scene::Scene* scene_;
+    const rays::RayScene* rays_;
+    scene::TextureSet textures_;
+    ReachedSides reached_;
+    std::uint64_t seed_;
+    rays::SpatialTree shaftTree_;
+    std::vector<base::Box> shaftBoxes_;
+    std::vector<PatchRef> shaftItems_;
+    std::vector<std::uint32_t> firstShaftItem_;  ///< of each object
+
+    std::vector<NodeId> parent_;
+    std::vector<NodeId> firstChild_;
+    std::vector<NodeKind> kind_;
+    std::vector<std::uint32_t> object_;
+    std::vector<std::uint32_t> patchSide_;  ///< patch * 2 + back
+    std::vector<surface::Path> path_;
+    std::vector<Shape> shape_;
+    std::vector<Light> light_;
+    std::vector<std::uint8_t> mayHide_;  ///< other geometry touches this element: its exposure must be sampled
+
+    std::vector<NodeId> patches_;
+    std::vector<NodeId> sources_;
+    std::vector<std::array<NodeId, 2>> patchNodes_;  ///< by shaft item: front, back
+    NodeId root_ = NodeId::none;
+    std::size_t leafCount_ = 0;
+    double totalArea_ = 0.0;
+};
+
+}  // namespace fluxwalk::hierarchy

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/solve/state.h"
+
+namespace fluxwalk::solve {
+
+/// Energy balance of the present solution: emitted and absorbed flux from the leaves, escaped flux from `rayCount` cosine rays of the
+/// leaves, row sums of closed scenes from the links.
+Audit auditEnergy(const Problem& problem, std::size_t rayCount);
+
+/// Sum of the form factors that a leaf gathers through its own links and its ancestors', at index of each leaf's node; 0 elsewhere.
+std::vector<float> computeRowSums(const Problem& problem);
+
+}  // namespace fluxwalk::solve

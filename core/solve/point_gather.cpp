@@ -1,0 +1,225 @@
+#include "core/solve/point_gather.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/photometry.h"
+#include "core/base/random.h"
+#include "core/transport/form_factor.h"
+
+namespace fluxwalk::solve {
+
+namespace {
+
+using base::Vec2d;
+using hierarchy::Hierarchy;
+using hierarchy::NodeKind;
+
+/// A source is opened while the spread of its radiosity, seen from the point, is more than this part of the mean irradiance.
+constexpr float kOpenSpread = 2e-3f;
+constexpr unsigned kMaxRays = 256;
+
+class PointGather {
+  public:
+    PointGather(const Problem& problem, const Vec3d& position, const Vec3d& normal)
+        : problem_(problem),
+          h_(problem.hierarchy),
+          x_(position),
+          n_(normal),
+          reference_(std::max(static_cast<float>(problem.statistics.meanIrradiance), 1e-20f)) {
+        key_ = problem.options.seed;
+        for (int i = 0; i < 3; ++i) {
+            key_ = base::combine(key_, std::bit_cast<std::uint64_t>(position[i]));
+        }
+    }
+
+    Vec3d sum() const { return sum_; }
+
+    /// Adds what `source` sends to the point, opened where needed. `isOpen`: known to be unoccluded.
+    void add(NodeId source, bool isOpen) {
+        switch (h_.kind(source)) {
+            case NodeKind::cluster:
+                for (unsigned c = 0; c < 2; ++c) {
+                    add(h_.child(source, c), isOpen);
+                }
+                return;
+            case NodeKind::light: addLight(source); return;
+            case NodeKind::sky: addSky(source); return;
+            case NodeKind::element: addElement(source, isOpen); return;
+        }
+    }
+
+  private:
+    void addElement(NodeId source, bool isOpen) {
+        const hierarchy::Shape& shape = h_.shape(source);
+        if (shape.exposed <= 0.0f) {
+            return;
+        }
+        const Vec3d toSource = Vec3d(shape.center) - x_;
+        if (glm::dot(n_, toSource) < -static_cast<double>(shape.radius)) {
+            return;
+        }
+        const transport::ElementPoints points = transport::makeElementPoints(h_, source);
+        const double factor = transport::computePointFactor(x_, n_, points);
+        const hierarchy::Light& light = h_.light(source);
+        const bool isNear = !shape.isPlanar && glm::length(toSource) < 6.0 * static_cast<double>(shape.radius);
+        if (!h_.isLeaf(source) && (isNear || static_cast<float>(factor) * light.spread > kOpenSpread * reference_)) {
+            for (unsigned c = 0; c < 4; ++c) {
+                add(h_.child(source, c), isOpen);
+            }
+            return;
+        }
+        const float contribution = static_cast<float>(factor) * base::channelMean(light.radiosity) / reference_;
+        if (contribution <= 0.0f) {
+            return;
+        }
+        const double visibility = isOpen ? 1.0 : sampleVisibility(source, contribution);
+        sum_ += factor * visibility * static_cast<double>(shape.exposed) * Vec3d(light.radiosity);
+    }
+
+    static unsigned chooseSide(float contribution) {
+        return contribution > 0.1f ? 16 : contribution > 0.01f ? 8 : contribution > 5e-4f ? 4 : 2;
+    }
+
+    double sampleVisibility(NodeId source, float contribution) {
+        const unsigned side = chooseSide(contribution);
+        const hierarchy::Shape& shape = h_.shape(source);
+        const hierarchy::ElementName name = h_.name(source);
+        const surface::Surface& surface = h_.surfaceOf(source);
+        const surface::Region region = h_.region(source);
+        base::RandomStream random(base::combine(key_, h_.key(source)));
+        std::array<rays::Ray, kMaxRays> bundle;
+        std::array<double, kMaxRays> weights{};
+        std::array<std::uint8_t, kMaxRays> blocked{};
+        unsigned used = 0;
+        for (unsigned i = 0; i < side * side; ++i) {
+            const Vec2d jitter = random.next2();
+            const Vec2d st((i % side + jitter.x) / side, (i / side + jitter.y) / side);
+            const unsigned cell = 4 * static_cast<unsigned>(st.y * 4.0) + static_cast<unsigned>(st.x * 4.0);
+            if ((shape.exposedCells >> cell & 1u) == 0) {
+                continue;
+            }
+            const surface::RegionPoint where = surface::mapToRegion(region, st);
+            const surface::SurfacePoint p = surface.evaluate(name.patch, where.uv);
+            const Vec3d m = name.back ? -p.normal : p.normal;
+            const Vec3d d = p.position - x_;
+            const double cosines = std::max(0.0, glm::dot(n_, d)) * std::max(0.0, -glm::dot(m, d));
+            const double r2 = glm::dot(d, d);
+            if (cosines <= 0.0) {
+                continue;
+            }
+            weights[used] = cosines / (r2 * r2) * p.jacobian * where.jacobian;
+            bundle[used++] = problem_.rays.segment(x_, n_, p.position, m);
+        }
+        if (used == 0) {
+            return 1.0;
+        }
+        problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+        double all = 0.0;
+        double seen = 0.0;
+        for (unsigned i = 0; i < used; ++i) {
+            all += weights[i];
+            seen += blocked[i] != 0 ? 0.0 : weights[i];
+        }
+        return seen / all;
+    }
+
+    void addLight(NodeId source) {
+        const scene::Light& light = problem_.scene->lights[h_.lightIndex(source)];
+        if (light.kind == scene::LightKind::directional) {
+            const double cosine = -glm::dot(n_, light.direction);
+            if (cosine > 0.0 && !problem_.rays.isOccluded(problem_.rays.halfLine(x_, n_, -light.direction))) {
+                sum_ += cosine * Vec3d(light.intensity);
+            }
+            return;
+        }
+        const Vec3d d = light.position - x_;
+        const double r2 = std::max(glm::dot(d, d), 1e-12);
+        const double cosine = glm::dot(n_, d) / std::sqrt(r2);
+        if (cosine > 0.0 && !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
+            sum_ += cosine / r2 * Vec3d(scene::intensityToward(light, -glm::normalize(d)));
+        }
+    }
+
+    void addSky(NodeId source) {
+        // Strata of the upper hemisphere, uniform in solid angle; the cosine weighs them.
+        constexpr unsigned kSide = 16;
+        std::array<rays::Ray, kMaxRays> bundle;
+        std::array<double, kMaxRays> weights{};
+        std::array<std::uint8_t, kMaxRays> blocked{};
+        base::RandomStream random(base::combine(key_, h_.key(source)));
+        unsigned used = 0;
+        for (unsigned i = 0; i < kSide * kSide; ++i) {
+            const Vec2d jitter = random.next2();
+            const double y = (i % kSide + jitter.x) / kSide;
+            const double angle = 2.0 * base::kPi * (i / kSide + jitter.y) / kSide;
+            const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
+            const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
+            const double cosine = glm::dot(n_, direction);
+            if (cosine > 0.0) {
+                weights[used] = cosine;
+                bundle[used++] = problem_.rays.halfLine(x_, n_, direction);
+            }
+        }
+        problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+        double seen = 0.0;
+        double all = 0.0;
+        for (unsigned i = 0; i < used; ++i) {
+            all += weights[i];
+            seen += blocked[i] != 0 ? 0.0 : weights[i];
+        }
+        if (all > 0.0) {
+            sum_ += 0.5 * (1.0 + n_.y) * seen / all * Vec3d(h_.light(source).radiosity);
+        }
+    }
+
+    const Problem& problem_;
+    const Hierarchy& h_;
+    Vec3d x_;
+    Vec3d n_;
+    float reference_;
+    std::uint64_t key_ = 0;
+    Vec3d sum_{0.0};
+};
+
+}  // namespace
+
+Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point) {
+    const Hierarchy& h = problem.hierarchy;
+    PointGather gather(problem, point.position, point.normal);
+    for (NodeId id = point.leaf; id != NodeId::none && h.kind(id) == NodeKind::element; id = h.parent(id)) {
+        for (const std::uint32_t l : problem.links.endingAt(id)) {
+            const hierarchy::Link& link = problem.links.links[l];
+            gather.add(link.a == id ? link.b : link.a, link.isOpen());
+        }
+    }
+    return Rgb(gather.sum());
+}
+
+Rgb gatherInSpace(const Problem& problem, const Vec3d& position, const Vec3d& normal) {
+    PointGather gather(problem, position, normal);
+    if (problem.hierarchy.root() != NodeId::none) {
+        gather.add(problem.hierarchy.root(), false);
+    }
+    return Rgb(gather.sum());
+}
+
+std::optional<NodeId> findLeaf(const Problem& problem, std::uint32_t object, std::uint32_t patch, bool back,
+                               const base::Vec2d& uv) {
+    const Hierarchy& h = problem.hierarchy;
+    NodeId id = h.patchNode(object, patch, back);
+    if (id == NodeId::none) {
+        return std::nullopt;
+    }
+    const surface::Surface& surface = *problem.scene->objects[object].surface;
+    surface::Region region = surface::wholePatch(surface.domain(patch));
+    while (!h.isLeaf(id)) {
+        const unsigned child = surface::childAt(surface, patch, region, uv);
+        region = surface::childRegion(surface, patch, region, child);
+        id = h.child(id, child);
+    }
+    return id;
+}
+
+}  // namespace fluxwalk::solve

@@ -1,0 +1,362 @@
+#include "core/solve/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/photometry.h"
+#include "core/transport/coefficients.h"
+
+namespace fluxwalk::solve {
+
+namespace {
+
+using hierarchy::Hierarchy;
+using hierarchy::Link;
+using hierarchy::NodeKind;
+using hierarchy::Shape;
+using transport::Coefficient;
+using transport::Query;
+
+/// Pairs whose coefficients are computed between two looks at the clock.
+constexpr std::size_t kGrain = 64;
+
+enum class Verdict : std::uint8_t { drop, accept, splitA, splitB, splitSelf };
+
+struct Decision {
+    Verdict verdict = Verdict::drop;
+    Link link;
+};
+
+bool isBehind(const Shape& plane, const Shape& other, float tolerance) {
+    if (!plane.isPlanar || plane.cornerCount == 0) {
+        return false;
+    }
+    const base::Vec3& n = plane.axis;
+    const float offset = glm::dot(n, plane.corners[0]);
+    if (!other.isPlanar || other.cornerCount == 0) {
+        return glm::dot(n, other.center) + other.radius <= offset + tolerance;
+    }
+    for (std::uint32_t i = 0; i < other.cornerCount; ++i) {
+        if (glm::dot(n, other.corners[i]) > offset + tolerance) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether no normal of `from` has a direction to `to` in its half-space (ALGORITHMS 1.4, facing test).
+bool facesAway(const Shape& from, const Shape& to) {
+    const base::Vec3 d = to.center - from.center;
+    const float distance = glm::length(d);
+    const float reach = from.radius + to.radius;
+    if (distance <= reach) {
+        return false;
+    }
+    const double between = base::NormalCone::angleBetween(Vec3d(from.axis), glm::normalize(Vec3d(d)));
+    const double delta = std::asin(std::min(1.0, static_cast<double>(reach / distance)));
+    return between - static_cast<double>(from.halfAngle) - delta >= 0.5 * base::kPi;
+}
+
+class Refinement {
+  public:
+    Refinement(Problem& problem, double threshold)
+        : problem_(problem),
+          hierarchy_(problem.hierarchy),
+          service_(problem.hierarchy, problem.rays),
+          threshold_(static_cast<float>(threshold)),
+          minArea_(problem.minArea()),
+          sceneArea_(static_cast<float>(problem.hierarchy.totalArea())),
+          tolerance_(1e-6f * static_cast<float>(problem.scene->bounds().diagonal())) {}
+
+    // Pairs that start the first refinement.
+    std::vector<Query> fromRoot() const {
+        const NodeId root = hierarchy_.root();
+        return root == NodeId::none ? std::vector<Query>{} : std::vector<Query>{{root, root, false}};
+    }
+
+    // Takes the links whose error has become too large out of the store and returns what they split into.
+    std::vector<Query> fromStandingLinks() {
+        std::vector<Link>& links = problem_.links.links;
+        std::vector<Verdict> verdicts(links.size());
+        problem_.executor.forRange(links.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                verdicts[i] = judge(links[i]);
+            }
+        });
+        std::vector<Decision> opened;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < links.size(); ++i) {
+            if (verdicts[i] == Verdict::accept) {
+                links[kept++] = links[i];
+            } else {
+                opened.push_back({verdicts[i], links[i]});
+            }
+        }
+        links.resize(kept);
+        return openPairs(opened);
+    }
+
+    // One wave: coefficients of all pairs, then accept, drop or split.
+    std::vector<Query> runWave(const std::vector<Query>& pairs) {
+        std::vector<Decision> decisions(pairs.size());
+        std::vector<Counters> counts((pairs.size() + kGrain - 1) / kGrain);
+        problem_.executor.forRange(pairs.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                decisions[i] = decide(pairs[i], counts[begin / kGrain]);
+            }
+        });
+        Counters& total = problem_.statistics.counters;
+        for (const Counters& c : counts) {
+            total.rays += c.rays;
+            total.kernelEvaluations += c.kernelEvaluations;
+            total.certificates += c.certificates;
+        }
+        ++total.waves;
+        std::vector<Decision> opened;
+        for (const Decision& d : decisions) {
+            if (d.verdict == Verdict::accept) {
+                problem_.links.links.push_back(d.link);
+            } else if (d.verdict != Verdict::drop) {
+                opened.push_back(d);
+            }
+        }
+        return openPairs(opened);
+    }
+
+    void acceptAll() { threshold_ = INFINITY; }
+
+  private:
+    bool isSplittable(NodeId id) const { return hierarchy_.canSplit(id, minArea_); }
+
+    transport::LinkAssessment assessLink(const Link& link, float visibilityUpper, bool isMixed) const {
+        const hierarchy::Light& a = hierarchy_.light(link.a);
+        const hierarchy::Light& b = hierarchy_.light(link.b);
+        const Shape& shapeA = hierarchy_.shape(link.a);
+        const Shape& shapeB = hierarchy_.shape(link.b);
+        const bool isOneWay = hierarchy_.kind(link.b) != NodeKind::element;
+        transport::LinkBounds k;
+        k.coupling = link.coupling * shapeA.exposed * (isOneWay ? 1.0f : shapeB.exposed);
+        k.visibility = link.visibility();
+        k.visibilityUpper = visibilityUpper;
+        k.isMixed = isMixed;
+        k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
+        k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
+        k.radiosityA = isOneWay ? 0.0f : base::channelMean(a.radiosity);
+        k.radiosityB = base::channelMean(b.radiosity);
+        k.radiositySpreadA = isOneWay ? 0.0f : a.spread;
+        k.radiositySpreadB = b.spread;
+        k.areaA = shapeA.exposedArea();
+        k.areaB = isOneWay ? 1.0f : shapeB.exposedArea();
+        k.radiusA = shapeA.radius;
+        k.radiusB = isOneWay ? 0.0f : shapeB.radius;
+        k.distance = glm::distance(shapeA.center, shapeB.center);
+        k.sceneArea = sceneArea_;
+        return transport::assess(problem_.options.oracle, k);
+    }
+
+    Verdict chooseSplit(const Link& link, bool preferA) const {
+        if (link.a == link.b) {
+            return Verdict::accept;
+        }
+        const bool canA = isSplittable(link.a);
+        const bool canB = isSplittable(link.b);
+        if (!canA && !canB) {
+            return Verdict::accept;
+        }
+        return (preferA && canA) || !canB ? Verdict::splitA : Verdict::splitB;
+    }
+
+    Verdict judge(const Link& link) const {
+        const float v = link.visibility();
+        const bool isMixed = !link.isOpen() && v > 0.0f && v < 1.0f;
+        const float upper = link.isOpen() ? 1.0f
+                                          : transport::visibilityUpperBound(
+                                                v, isMixed ? transport::kSecondRays : transport::kFirstRays);
+        const transport::LinkAssessment assessment = assessLink(link, upper, isMixed);
+        return assessment.error <= threshold_ ? Verdict::accept : chooseSplit(link, assessment.splitA);
+    }
+
+    Decision decide(const Query& pair, Counters& counters) const {
+        const NodeKind kindA = hierarchy_.kind(pair.a);
+        const NodeKind kindB = hierarchy_.kind(pair.b);
+        Decision d;
+        d.link.a = pair.a;
+        d.link.b = pair.b;
+        if (pair.a == pair.b) {
+            return decideSelf(pair, counters);
+        }
+        if (kindA == NodeKind::cluster || kindB == NodeKind::cluster) {
+            return decideClusters(pair);
+        }
+        if (kindA != NodeKind::element) {
+            return d;  // two light sources without area
+        }
+        const Shape& shapeA = hierarchy_.shape(pair.a);
+        const Shape& shapeB = hierarchy_.shape(pair.b);
+        if (shapeA.exposedCells == 0 || (kindB == NodeKind::element && shapeB.exposedCells == 0)) {
+            return d;
+        }
+        if (kindB == NodeKind::element && (isBehind(shapeA, shapeB, tolerance_) || isBehind(shapeB, shapeA, tolerance_) ||
+                                           facesAway(shapeA, shapeB) || facesAway(shapeB, shapeA))) {
+            return d;
+        }
+        Coefficient c;
+        service_.compute(std::span(&pair, 1), std::span(&c, 1));
+        count(c, counters);
+        if (c.isBlocked || c.coupling <= 0.0f) {
+            return d;
+        }
+        setCoefficient(d.link, c);
+        const float upper = c.isOpen ? 1.0f : transport::visibilityUpperBound(c.visibility, c.rays);
+        const transport::LinkAssessment assessment = assessLink(d.link, upper, c.isMixed);
+        d.verdict = assessment.error <= threshold_ ? Verdict::accept : chooseSplit(d.link, assessment.splitA);
+        return d;
+    }
+
+    // A concave element sees itself: kept as a link where its kernel is one constant or it is small, otherwise split into its parts.
+    Decision decideSelf(const Query& pair, Counters& counters) const {
+        constexpr unsigned kSelfLevels = 3;
+        Decision d;
+        d.link.a = pair.a;
+        d.link.b = pair.a;
+        if (hierarchy_.kind(pair.a) == NodeKind::cluster) {
+            d.verdict = Verdict::splitSelf;
+            return d;
+        }
+        if (hierarchy_.kind(pair.a) != NodeKind::element) {
+            return d;
+        }
+        const hierarchy::ElementName name = hierarchy_.name(pair.a);
+        const surface::Surface& surface = hierarchy_.surfaceOf(pair.a);
+        if (!surface.canSeeItself(name.patch, name.back)) {
+            return d;
+        }
+        if (!surface.exactKernel(name.back) && surface::pathLevel(name.path) < kSelfLevels && isSplittable(pair.a)) {
+            d.verdict = Verdict::splitSelf;
+            return d;
+        }
+        Coefficient c;
+        service_.compute(std::span(&pair, 1), std::span(&c, 1));
+        count(c, counters);
+        if (c.coupling > 0.0f && !c.isBlocked) {
+            setCoefficient(d.link, c);
+            d.verdict = Verdict::accept;
+        }
+        return d;
+    }
+
+    Decision decideClusters(const Query& pair) const {
+        Decision d;
+        d.link.a = pair.a;
+        d.link.b = pair.b;
+        const bool clusterA = hierarchy_.kind(pair.a) == NodeKind::cluster;
+        const bool clusterB = hierarchy_.kind(pair.b) == NodeKind::cluster;
+        const Shape& a = hierarchy_.shape(pair.a);
+        const Shape& b = hierarchy_.shape(pair.b);
+        if (a.area > 0.0f && b.area > 0.0f && (facesAway(a, b) || facesAway(b, a))) {
+            return d;
+        }
+        if (clusterA && clusterB) {
+            d.verdict = a.radius >= b.radius ? Verdict::splitA : Verdict::splitB;
+        } else {
+            d.verdict = clusterA ? Verdict::splitA : Verdict::splitB;
+        }
+        return d;
+    }
+
+    static void count(const Coefficient& c, Counters& counters) {
+        counters.rays += c.rays;
+        counters.kernelEvaluations += c.evaluations;
+        counters.certificates += c.isOpen || c.isBlocked ? 1 : 0;
+    }
+
+    static void setCoefficient(Link& link, const Coefficient& c) {
+        link.coupling = c.coupling;
+        link.setVisibility(c.visibility, c.isOpen);
+        link.spreadA = hierarchy::UncertaintyCode::encode(c.spreadA);
+        link.spreadB = hierarchy::UncertaintyCode::encode(c.spreadB);
+    }
+
+    // Splits the nodes that need children and returns the pairs that replace the opened ones, in their order.
+    std::vector<Query> openPairs(const std::vector<Decision>& opened) {
+        std::vector<NodeId> leaves;
+        const auto want = [&](NodeId id) {
+            if (hierarchy_.isLeaf(id) && hierarchy_.kind(id) == NodeKind::element) {
+                leaves.push_back(id);
+            }
+        };
+        for (const Decision& d : opened) {
+            want(d.verdict == Verdict::splitB ? d.link.b : d.link.a);
+        }
+        std::sort(leaves.begin(), leaves.end());
+        leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+        problem_.hierarchy.split(leaves, problem_.executor);
+
+        std::vector<Query> next;
+        next.reserve(opened.size() * 4);
+        for (const Decision& d : opened) {
+            const NodeId a = d.link.a;
+            const NodeId b = d.link.b;
+            const bool open = d.link.isOpen();
+            if (d.verdict == Verdict::splitSelf) {
+                const unsigned n = hierarchy_.childCount(a);
+                for (unsigned i = 0; i < n; ++i) {
+                    for (unsigned j = i; j < n; ++j) {
+                        next.push_back(ordered(hierarchy_.child(a, i), hierarchy_.child(a, j), open));
+                    }
+                }
+                continue;
+            }
+            const NodeId from = d.verdict == Verdict::splitA ? a : b;
+            const NodeId other = d.verdict == Verdict::splitA ? b : a;
+            for (unsigned i = 0; i < hierarchy_.childCount(from); ++i) {
+                next.push_back(ordered(hierarchy_.child(from, i), other, open));
+            }
+        }
+        return next;
+    }
+
+    // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it was reached.
+    Query ordered(NodeId a, NodeId b, bool open) const {
+        const bool sourceA = hierarchy_.kind(a) == NodeKind::light || hierarchy_.kind(a) == NodeKind::sky;
+        const bool sourceB = hierarchy_.kind(b) == NodeKind::light || hierarchy_.kind(b) == NodeKind::sky;
+        if (sourceA != sourceB) {
+            return sourceA ? Query{b, a, open} : Query{a, b, open};
+        }
+        return hierarchy_.key(a) <= hierarchy_.key(b) ? Query{a, b, open} : Query{b, a, open};
+    }
+
+    Problem& problem_;
+    const Hierarchy& hierarchy_;
+    transport::CoefficientService service_;
+    float threshold_;
+    double minArea_;
+    float sceneArea_;
+    float tolerance_;
+};
+
+}  // namespace
+
+bool refineLinks(Problem& problem, double threshold, const std::function<bool()>& shouldStop) {
+    const StageTimer timer(problem.statistics.times.refine);
+    Refinement refinement(problem, threshold);
+    const bool isFirst = problem.links.links.empty();
+    std::vector<Query> pairs = isFirst ? refinement.fromRoot() : refinement.fromStandingLinks();
+    const bool changed = !pairs.empty();
+    while (!pairs.empty()) {
+        if (!isFirst && shouldStop && shouldStop()) {
+            refinement.acceptAll();
+        }
+        pairs = refinement.runWave(pairs);
+    }
+    problem.links.index(problem.hierarchy.nodeCount());
+    Counters& counters = problem.statistics.counters;
+    counters.nodes = problem.hierarchy.nodeCount();
+    counters.leaves = problem.hierarchy.leafCount();
+    counters.links = problem.links.links.size();
+    counters.bytesNodes = counters.nodes * Hierarchy::bytesPerNode();
+    counters.bytesLinks = problem.links.bytes();
+    return changed;
+}
+
+}  // namespace fluxwalk::solve

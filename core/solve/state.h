@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "core/base/parallel.h"
+#include "core/hierarchy/hierarchy.h"
+#include "core/hierarchy/links.h"
+#include "core/rays/ray_scene.h"
+#include "core/solve/options.h"
+#include "core/solve/statistics.h"
+
+/// What a solve works on; shared by the stages of this layer and by gathering at points.
+namespace fluxwalk::solve {
+
+using base::NodeId;
+using base::Rgb;
+using base::Vec3d;
+
+struct Problem {
+    Problem(std::shared_ptr<const scene::Scene> what, const Options& chosen, unsigned threads)
+        : scene(std::move(what)),
+          options(chosen),
+          executor(threads),
+          rays(*scene, executor),
+          hierarchy(*scene, rays, executor, chosen.seed) {}
+
+    std::shared_ptr<const scene::Scene> scene;
+    Options options;
+    base::Executor executor;
+    rays::RayScene rays;
+    hierarchy::Hierarchy hierarchy;
+    hierarchy::LinkStore links;
+    Statistics statistics;
+
+    /// Smallest area in m2 that is still split.
+    double minArea() const {
+        return options.minArea > 0.0 ? options.minArea : 1e-7 * hierarchy.totalArea();
+    }
+};
+
+/// Adds its own life time to a stage's seconds.
+class StageTimer {
+  public:
+    explicit StageTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+    ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_;
+};
+
+}  // namespace fluxwalk::solve

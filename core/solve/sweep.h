@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/solve/state.h"
+
+namespace fluxwalk::solve {
+
+/// Gathers, pushes and pulls over the whole hierarchy, in place, block by block (blocked Gauss-Seidel: Jacobi inside a block, which is
+/// a run of neighbouring patches fixed by the hierarchy). ALGORITHMS 1.5, 1.11.
+class Sweeper {
+  public:
+    /// Lays out the blocks; make a new one after refinement.
+    explicit Sweeper(Problem& problem);
+
+    /// One sweep. Returns sum |dB| A / sum B A over the leaves, channel means.
+    double sweep();
+
+    /// Pushes what is gathered and pulls radiosity once, without gathering.
+    void pushPull();
+
+    std::size_t blockCount() const { return blocks_.size(); }
+
+  private:
+    struct Block {
+        std::size_t begin = 0;  ///< range of order_
+        std::size_t end = 0;
+    };
+
+    void gather(const Block& block);
+    void pushPull(const Block& block, double& change, double& power);
+
+    Problem& problem_;
+    std::vector<NodeId> order_;      ///< nodes of the elements' trees, parents before children
+    std::vector<Block> blocks_;
+    std::vector<float> lowest_;      ///< of the channel-mean radiosity below a node, in order_
+    std::vector<float> highest_;
+};
+
+}  // namespace fluxwalk::solve

@@ -1,0 +1,125 @@
+#include "core/transport/coefficients.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/transport/form_factor.h"
+#include "core/transport/shaft.h"
+#include "core/transport/visibility.h"
+
+namespace fluxwalk::transport {
+
+namespace {
+
+// Mean and relative deviation over an element of what a light source without area, or the sky, sends to it.
+void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, NodeId source, Coefficient& out) {
+    std::array<double, base::kLanes> factor{};
+    double mean = 0.0;
+    for (int i = 0; i < base::kLanes; ++i) {
+        const Vec3d x(e.position.x[i], e.position.y[i], e.position.z[i]);
+        const Vec3d n(e.normal.x[i], e.normal.y[i], e.normal.z[i]);
+        double f = 0.0;
+        if (h.kind(source) == hierarchy::NodeKind::sky) {
+            // A uniform upper hemisphere over a plane tilted by beta: (1 + cos beta) / 2 of it.
+            f = 0.5 * (1.0 + n.y);
+        } else {
+            const scene::Light& light = h.scene().lights[h.lightIndex(source)];
+            if (light.kind == scene::LightKind::directional) {
+                f = std::max(0.0, -glm::dot(n, light.direction));
+            } else {
+                const Vec3d d = light.position - x;
+                const double r2 = std::max(glm::dot(d, d), 1e-12);
+                f = std::max(0.0, glm::dot(n, d)) / (r2 * std::sqrt(r2));
+                if (light.kind == scene::LightKind::spot) {
+                    const float full = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+                    const base::Rgb there = scene::intensityToward(light, -glm::normalize(d));
+                    f *= full > 0.0f ? static_cast<double>(std::max({there.r, there.g, there.b}) / full) : 0.0;
+                }
+            }
+        }
+        factor[static_cast<std::size_t>(i)] = f;
+        mean += e.weight[i] * f;
+    }
+    const auto [lowest, highest] = std::minmax_element(factor.begin(), factor.end());
+    out.coupling = static_cast<float>(e.area * mean);
+    if (mean <= 0.0 && *highest > 0.0) {
+        mean = *highest / 64.0;
+        out.coupling = static_cast<float>(e.area * mean);
+    }
+    out.spreadA = mean > 0.0 ? static_cast<float>(std::max(*highest - mean, mean - *lowest) / mean) : 0.0f;
+    out.evaluations = base::kLanes;
+}
+
+}  // namespace
+
+float visibilityUpperBound(float visibility, unsigned rays) {
+    const auto n = static_cast<float>(rays);
+    const float p = (visibility * n + 1.0f) / (n + 2.0f);
+    return std::min(1.0f, p + std::sqrt(p * (1.0f - p) / (n + 3.0f)));
+}
+
+void CoefficientService::compute(std::span<const Query> queries, std::span<Coefficient> out) const {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const bool isElement = hierarchy_.kind(queries[i].b) == hierarchy::NodeKind::element;
+        out[i] = isElement ? betweenElements(queries[i]) : fromSource(queries[i]);
+    }
+}
+
+Coefficient CoefficientService::betweenElements(const Query& query) const {
+    Coefficient out;
+    const hierarchy::ElementName nameA = hierarchy_.name(query.a);
+    const hierarchy::ElementName nameB = hierarchy_.name(query.b);
+    const bool isSameSide = nameA.object == nameB.object && nameA.back == nameB.back;
+    const auto constant = isSameSide ? hierarchy_.surfaceOf(query.a).exactKernel(nameA.back) : std::nullopt;
+    const ElementPoints a = makeElementPoints(hierarchy_, query.a);
+    const ElementPoints b = makeElementPoints(hierarchy_, query.b);
+    double coupling = 0.0;
+    if (constant) {
+        coupling = a.area * b.area * *constant;
+    } else {
+        const PairFactor factor = computePairFactor(a, b);
+        coupling = factor.coupling;
+        out.spreadA = static_cast<float>(factor.spreadA);
+        out.spreadB = static_cast<float>(factor.spreadB);
+        out.evaluations = static_cast<std::uint16_t>(factor.evaluations);
+    }
+    out.coupling = static_cast<float>(coupling);
+    if (out.coupling <= 0.0f || query.isOpen) {
+        out.isOpen = query.isOpen;
+        return out;
+    }
+    switch (inspectShaft(hierarchy_, query.a, query.b, 0.5 * rays_.lift())) {
+        case ShaftContent::empty: out.isOpen = true; return out;
+        case ShaftContent::blocked:
+            out.isBlocked = true;
+            out.visibility = 0.0f;
+            return out;
+        case ShaftContent::unknown: break;
+    }
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
+    out.visibility = seen.mean;
+    out.rays = seen.rays;
+    out.isMixed = seen.isMixed;
+    return out;
+}
+
+Coefficient CoefficientService::fromSource(const Query& query) const {
+    Coefficient out;
+    const ElementPoints a = makeElementPoints(hierarchy_, query.a);
+    factorFromSource(a, hierarchy_, query.b, out);
+    if (out.coupling <= 0.0f) {
+        return out;
+    }
+    const VisibilitySample seen = sampleSourceVisibility(hierarchy_, rays_, query.a, query.b);
+    out.visibility = seen.mean;
+    out.rays = seen.rays;
+    const bool isSky = hierarchy_.kind(query.b) == hierarchy::NodeKind::sky;
+    // Every view of the sky is a mixture; what counts is how it differs over the receiver.
+    out.isMixed = seen.isMixed && !isSky;
+    if (isSky) {
+        out.spreadA += seen.deviation;
+    }
+    return out;
+}
+
+}  // namespace fluxwalk::transport

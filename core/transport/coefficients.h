@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/parallel.h"
+#include "core/hierarchy/hierarchy.h"
+#include "core/rays/ray_scene.h"
+
+namespace fluxwalk::transport {
+
+using base::NodeId;
+
+/// A pair whose coefficient is asked for. `isOpen`: a pair above it was found with an empty shaft.
+struct Query {
+    NodeId a{};
+    NodeId b{};
+    bool isOpen = false;
+};
+
+/// What a pair exchanges. `b` may be a light source.
+struct Coefficient {
+    float coupling = 0.0f;  ///< unoccluded, m2, over the whole of both
+    float visibility = 1.0f;
+    float spreadA = 0.0f;  ///< relative deviation of the kernel over a
+    float spreadB = 0.0f;
+    bool isOpen = false;
+    bool isBlocked = false;  ///< certain
+    bool isMixed = false;
+    std::uint16_t rays = 0;
+    std::uint16_t evaluations = 0;
+};
+
+/// Computes batches of coefficients; the narrow interface that other machines can implement too. Pure: results depend on the names of
+/// the pairs and the original objects only.
+class CoefficientService {
+  public:
+    CoefficientService(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays) : hierarchy_(hierarchy), rays_(rays) {}
+
+    /// out.size() == queries.size(). Safe to call from several threads on disjoint spans.
+    void compute(std::span<const Query> queries, std::span<Coefficient> out) const;
+
+  private:
+    Coefficient betweenElements(const Query& query) const;
+    Coefficient fromSource(const Query& query) const;
+
+    const hierarchy::Hierarchy& hierarchy_;
+    const rays::RayScene& rays_;
+};
+
+/// Largest visibility that k of n unblocked rays still allow: (k + 1) / (n + 2) and one standard deviation.
+float visibilityUpperBound(float visibility, unsigned rays);
+
+}  // namespace fluxwalk::transport

@@ -1,0 +1,140 @@
+#include "core/transport/element_points.h"
+
+#include <algorithm>
+
+namespace fluxwalk::transport {
+
+namespace {
+
+using base::Vec2d;
+
+constexpr double kGauss2 = 0.21132486540518713;  ///< 2-point Gauss-Legendre on [0, 1]
+constexpr std::array<double, 4> kGauss4{0.069431844202973714, 0.33000947820757187, 0.66999052179242813,
+                                        0.93056815579702629};
+constexpr std::array<double, 4> kGauss4Weight{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                              0.17392742256872693};
+
+// Bilinear (quad) or linear (triangle; barycentric s, t) map of the corners.
+Vec3d planarPoint(const ElementPoints& e, double s, double t) {
+    const auto& c = e.corners;
+    if (e.cornerCount == 3) {
+        return (1.0 - s - t) * c[0] + s * c[1] + t * c[2];
+    }
+    return (1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]);
+}
+
+double planarMeasure(const ElementPoints& e, double s, double t) {
+    if (e.cornerCount == 3) {
+        return 1.0;
+    }
+    const auto& c = e.corners;
+    const Vec3d ds = (1.0 - t) * (c[1] - c[0]) + t * (c[2] - c[3]);
+    const Vec3d dt = (1.0 - s) * (c[3] - c[0]) + s * (c[2] - c[1]);
+    return glm::length(glm::cross(ds, dt));
+}
+
+/// Points of a region in its own coordinates: (s,t) of quads, barycentric of triangles.
+struct LocalPoints {
+    std::array<Vec2d, base::kLanes> at;
+    std::array<double, base::kLanes> weight;
+};
+
+constexpr double kThird = 1.0 / 3.0;
+constexpr double kSixth = 1.0 / 6.0;
+
+LocalPoints localPoints(std::uint32_t cornerCount) {
+    if (cornerCount == 3) {
+        return {{Vec2d{kSixth, kSixth}, Vec2d{2 * kThird, kSixth}, Vec2d{kSixth, 2 * kThird}, Vec2d{kThird, kThird},
+                 Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{kThird, kThird}},
+                {kThird, kThird, kThird, 0, 0, 0, 0, 0}};
+    }
+    const double g = kGauss2;
+    return {{Vec2d{g, g}, Vec2d{1 - g, g}, Vec2d{1 - g, 1 - g}, Vec2d{g, 1 - g}, Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1, 1},
+             Vec2d{0, 1}},
+            {0.25, 0.25, 0.25, 0.25, 0, 0, 0, 0}};
+}
+
+void setLane(base::Lanes3& v, int lane, const Vec3d& p) {
+    v.x[lane] = p.x;
+    v.y[lane] = p.y;
+    v.z[lane] = p.z;
+}
+
+}  // namespace
+
+ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id) {
+    const hierarchy::Shape& shape = hierarchy.shape(id);
+    ElementPoints e;
+    e.cornerCount = shape.cornerCount;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        e.corners[i] = Vec3d(shape.corners[i]);
+    }
+    e.axis = Vec3d(shape.axis);
+    e.center = Vec3d(shape.center);
+    e.radius = static_cast<double>(shape.radius);
+    e.area = static_cast<double>(shape.area);
+    e.isPlanar = shape.isPlanar;
+    const LocalPoints local = localPoints(e.cornerCount);
+    std::array<double, base::kLanes> weight = local.weight;
+    if (e.isPlanar) {
+        e.normal = {base::splat(e.axis.x), base::splat(e.axis.y), base::splat(e.axis.z)};
+        for (int i = 0; i < base::kLanes; ++i) {
+            const Vec2d at = local.at[static_cast<std::size_t>(i)];
+            setLane(e.position, i, planarPoint(e, at.x, at.y));
+            weight[static_cast<std::size_t>(i)] *= planarMeasure(e, at.x, at.y);
+        }
+    } else {
+        const hierarchy::ElementName name = hierarchy.name(id);
+        const surface::Surface& surface = hierarchy.surfaceOf(id);
+        const surface::Region region = hierarchy.region(id);
+        const auto& c = region.corners;
+        for (int i = 0; i < base::kLanes; ++i) {
+            const Vec2d at = local.at[static_cast<std::size_t>(i)];
+            const Vec2d uv = region.cornerCount == 3
+                                 ? (1.0 - at.x - at.y) * c[0] + at.x * c[1] + at.y * c[2]
+                                 : (1.0 - at.y) * ((1.0 - at.x) * c[0] + at.x * c[1]) +
+                                       at.y * ((1.0 - at.x) * c[3] + at.x * c[2]);
+            const surface::SurfacePoint p = surface.evaluate(name.patch, uv);
+            setLane(e.position, i, p.position);
+            setLane(e.normal, i, name.back ? -p.normal : p.normal);
+            weight[static_cast<std::size_t>(i)] *= p.jacobian;
+        }
+    }
+    double sum = 0.0;
+    for (const double w : weight) {
+        sum += w;
+    }
+    for (int i = 0; i < base::kLanes; ++i) {
+        e.weight[i] = weight[static_cast<std::size_t>(i)] / sum;
+    }
+    return e;
+}
+
+DensePoints makeDensePoints(const ElementPoints& element) {
+    DensePoints dense;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int lane = static_cast<int>(4 * (j % 2) + i);
+            const std::size_t block = j / 2;
+            double s = kGauss4[i];
+            double t = kGauss4[j];
+            double weight = kGauss4Weight[i] * kGauss4Weight[j];
+            if (element.cornerCount == 3) {
+                // Collapsed square: (s, t) -> (s (1 - t), t) with measure 1 - t.
+                weight *= 1.0 - t;
+                s *= 1.0 - t;
+            }
+            weight *= planarMeasure(element, s, t);
+            setLane(dense.position[block], lane, planarPoint(element, s, t));
+            dense.weight[block][lane] = weight;
+            sum += weight;
+        }
+    }
+    for (Lanes& w : dense.weight) {
+        w /= sum;
+    }
+    return dense;
+}
+
+}  // namespace fluxwalk::transport

@@ -1,0 +1,47 @@
+#include "core/transport/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluxwalk::transport {
+
+namespace {
+
+// Error of a constant coefficient in power (MEASURED: power norm on all terms): the kernel's deviation over the receiver, the source's
+// spread of radiosity where it meets a varying kernel or a partly blocked view, and partial visibility itself.
+LinkAssessment assessBounded(const LinkBounds& k) {
+    const float g = k.coupling;
+    const float kernelA = g * k.radiosityB * k.spreadA * k.visibilityUpper;
+    const float kernelB = g * k.radiosityA * k.spreadB * k.visibilityUpper;
+    const float v = k.visibility;
+    const float partial = k.isMixed ? std::sqrt(std::max(0.0f, v * (1.0f - v))) : 0.0f;
+    const float gap = std::max(k.distance, 1e-20f);
+    const float sourceA = g * k.radiositySpreadA * std::max(v * std::min(1.0f, k.radiusA / gap), partial);
+    const float sourceB = g * k.radiositySpreadB * std::max(v * std::min(1.0f, k.radiusB / gap), partial);
+    const float shadowA = g * k.radiosityB * partial;
+    const float shadowB = g * k.radiosityA * partial;
+    const float towardsA = kernelA + sourceB + shadowA;
+    const float towardsB = kernelB + sourceA + shadowB;
+    // A shadow's edge is found by splitting the larger end.
+    const float shadow = std::max(shadowA, shadowB);
+    const bool largerA = k.radiusA >= k.radiusB;
+    const float gainA = std::max(kernelA, sourceA) + (largerA ? shadow : 0.0f);
+    const float gainB = std::max(kernelB, sourceB) + (largerA ? 0.0f : shadow);
+    return {std::max(towardsA, towardsB) / k.sceneArea, gainA == gainB ? largerA : gainA > gainB};
+}
+
+}  // namespace
+
+LinkAssessment assess(OracleKind oracle, const LinkBounds& k) {
+    const float transfer = k.coupling * k.visibility;
+    const bool largerA = k.radiusA >= k.radiusB;
+    switch (oracle) {
+        case OracleKind::bounded: return assessBounded(k);
+        case OracleKind::bfa: return {transfer * std::max(k.radiosityA, k.radiosityB) / k.sceneArea, largerA};
+        case OracleKind::bf:
+            return {std::max(transfer * k.radiosityB / k.areaA, transfer * k.radiosityA / k.areaB), largerA};
+    }
+    return {};
+}
+
+}  // namespace fluxwalk::transport

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fluxwalk::transport {
+
+/// Decides which links are refined (ALGORITHMS 1.3).
+enum class OracleKind : std::uint8_t {
+    bounded,  ///< spread of kernel, visibility and radiosity, weighed by power (Schaefer section 1; Lischinski et al. 1994)
+    bfa,      ///< B F A: the transferred power itself (Hanrahan et al. 1991)
+    bf        ///< B F: the transferred irradiance itself
+};
+
+/// What is known of a pair's exchange; radiosities are channel means in lm/m2.
+struct LinkBounds {
+    float coupling = 0.0f;         ///< m2
+    float visibility = 1.0f;       ///< estimate
+    float visibilityUpper = 1.0f;  ///< what it can be at most, given the rays
+    bool isMixed = false;          ///< partly visible
+    float spreadA = 0.0f;          ///< of the kernel over a, relative
+    float spreadB = 0.0f;
+    float radiosityA = 0.0f;
+    float radiosityB = 0.0f;
+    float radiositySpreadA = 0.0f;  ///< half the range within the node
+    float radiositySpreadB = 0.0f;
+    float areaA = 1.0f;
+    float areaB = 1.0f;
+    float radiusA = 1.0f;
+    float radiusB = 1.0f;
+    float distance = 1.0f;  ///< between the centres
+    float sceneArea = 1.0f;
+};
+
+struct LinkAssessment {
+    /// In lux: bf of the receiver, else power spread over the scene's area; of the direction that is worse.
+    float error = 0.0f;
+    /// Which end promises more if it is split.
+    bool splitA = true;
+};
+
+/// The one interface of all oracles, over the same bounds.
+LinkAssessment assess(OracleKind oracle, const LinkBounds& link);
+
+}  // namespace fluxwalk::transport

@@ -1,0 +1,239 @@
+#include "core/transport/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/photometry.h"
+#include "core/base/random.h"
+
+namespace fluxwalk::transport {
+
+namespace {
+
+using base::Vec2d;
+using base::Vec3d;
+
+/// Uniform numbers of 16 bits each, four from one mix: strata are far coarser than that.
+struct Jitter {
+    double x;
+    double y;
+    double z;
+    double w;
+
+    explicit Jitter(std::uint64_t bits)
+        : x(static_cast<double>(bits & 0xffffu)),
+          y(static_cast<double>((bits >> 16) & 0xffffu)),
+          z(static_cast<double>((bits >> 32) & 0xffffu)),
+          w(static_cast<double>(bits >> 48)) {
+        constexpr double kScale = 1.0 / 65536.0;
+        x = (x + 0.5) * kScale;
+        y = (y + 0.5) * kScale;
+        z = (z + 0.5) * kScale;
+        w = (w + 0.5) * kScale;
+    }
+};
+
+struct SurfaceSample {
+    Vec3d position;
+    Vec3d normal;
+    double measure;
+};
+
+/// Points of an element's exposed part, one in each of n = side x side strata.
+class ElementSampler {
+  public:
+    ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id)
+        : shape_(hierarchy.shape(id)), surface_(hierarchy.surfaceOf(id)), name_(hierarchy.name(id)) {
+        if (!shape_.isPlanar) {
+            region_ = hierarchy.region(id);
+        }
+        for (unsigned cell = 0; cell < 16; ++cell) {
+            if ((shape_.exposedCells >> cell & 1u) != 0) {
+                cells_[cellCount_++] = static_cast<std::uint8_t>(cell);
+            }
+        }
+        for (std::uint32_t i = 0; i < shape_.cornerCount; ++i) {
+            corners_[i] = Vec3d(shape_.corners[i]);
+        }
+        axis_ = Vec3d(shape_.axis);
+    }
+
+    SurfaceSample at(unsigned stratum, unsigned side, double jx, double jy) const {
+        Vec2d st((stratum % side + jx) / side, (stratum / side + jy) / side);
+        if (cellCount_ < 16) {
+            const double place = (stratum + 0.5) * cellCount_ / (static_cast<double>(side) * side);
+            const unsigned cell = cells_[std::min(cellCount_ - 1, static_cast<unsigned>(place))];
+            st = Vec2d((cell % 4 + jx) * 0.25, (cell / 4 + jy) * 0.25);
+        }
+        if (!shape_.isPlanar) {
+            const surface::RegionPoint where = surface::mapToRegion(region_, st);
+            const surface::SurfacePoint p = surface_.evaluate(name_.patch, where.uv);
+            return {p.position, name_.back ? -p.normal : p.normal, p.jacobian * where.jacobian};
+        }
+        // Corners of a back side run the other way round, which mirrors the region's second coordinate.
+        const double s = st.x;
+        const double t = name_.back ? 1.0 - st.y : st.y;
+        const auto& c = corners_;
+        if (shape_.cornerCount == 3) {
+            const double root = std::sqrt(s);
+            return {(root * (1.0 - t)) * c[0] + (1.0 - root) * c[1] + (t * root) * c[2], axis_, 1.0};
+        }
+        return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_, 1.0};
+    }
+
+  private:
+    const hierarchy::Shape& shape_;
+    const surface::Surface& surface_;
+    hierarchy::ElementName name_;
+    surface::Region region_;
+    std::array<Vec3d, 4> corners_{};
+    Vec3d axis_{};
+    std::array<std::uint8_t, 16> cells_{};
+    unsigned cellCount_ = 0;
+};
+
+struct Stage {
+    double weight = 0.0;
+    double seen = 0.0;
+    unsigned blockedCount = 0;
+    unsigned count = 0;
+
+    void add(double w, bool isBlocked) {
+        weight += w;
+        seen += isBlocked ? 0.0 : w;
+        blockedCount += isBlocked ? 1 : 0;
+        ++count;
+    }
+    double ratio() const { return weight > 0.0 ? seen / weight : 1.0 - static_cast<double>(blockedCount) / count; }
+};
+
+Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const ElementSampler& b, unsigned side,
+                std::uint64_t key) {
+    const unsigned count = side * side;
+    std::array<rays::Ray, kSecondRays> bundle;
+    std::array<double, kSecondRays> weights{};
+    std::array<std::uint8_t, kSecondRays> blocked{};
+    // Strata of b in another order: an odd factor and a mask permute them.
+    const unsigned factor = static_cast<unsigned>(key >> 7 & (count - 1)) | 1u;
+    const unsigned mask = static_cast<unsigned>(key >> 20) & (count - 1);
+    unsigned used = 0;
+    for (unsigned i = 0; i < count; ++i) {
+        const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
+        const SurfaceSample p = a.at(i, side, jitter.x, jitter.y);
+        const SurfaceSample q = b.at((i * factor ^ mask) & (count - 1), side, jitter.z, jitter.w);
+        const Vec3d d = q.position - p.position;
+        const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
+        const double r2 = glm::dot(d, d);
+        if (cosines <= 0.0) {
+            continue;
+        }
+        weights[used] = p.measure * q.measure * cosines / (r2 * r2);
+        bundle[used] = rays.segment(p.position, p.normal, q.position, q.normal);
+        ++used;
+    }
+    rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+    Stage stage;
+    // Near contact a few rays would carry all the weight: no ray counts more than four times the mean.
+    double mean = 0.0;
+    for (unsigned i = 0; i < used; ++i) {
+        mean += weights[i] / used;
+    }
+    for (unsigned i = 0; i < used; ++i) {
+        stage.add(std::min(weights[i], 4.0 * mean), blocked[i] != 0);
+    }
+    return stage;
+}
+
+VisibilitySample toSample(const Stage& stage) {
+    VisibilitySample sample;
+    sample.mean = stage.count == 0 ? 1.0f : static_cast<float>(stage.ratio());
+    sample.rays = static_cast<std::uint16_t>(stage.count);
+    sample.isMixed = stage.blockedCount > 0 && stage.blockedCount < stage.count;
+    return sample;
+}
+
+}  // namespace
+
+VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b) {
+    std::uint64_t keyA = hierarchy.key(a);
+    std::uint64_t keyB = hierarchy.key(b);
+    if (keyA > keyB) {
+        std::swap(a, b);
+        std::swap(keyA, keyB);
+    }
+    const std::uint64_t key = base::combine(keyA, keyB);
+    const ElementSampler onA(hierarchy, a);
+    const ElementSampler onB(hierarchy, b);
+    const Stage first = castPairs(rays, onA, onB, 4, key);
+    VisibilitySample sample = toSample(first);
+    if (sample.isMixed) {
+        const Stage second = castPairs(rays, onA, onB, 8, base::mix(key));
+        const auto firstRays = sample.rays;
+        sample = toSample(second);
+        sample.isMixed = true;
+        sample.rays = static_cast<std::uint16_t>(sample.rays + firstRays);
+    }
+    return sample;
+}
+
+VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId element,
+                                        NodeId source) {
+    const std::uint64_t key = base::combine(hierarchy.key(element), hierarchy.key(source));
+    const ElementSampler sampler(hierarchy, element);
+    const bool isSky = hierarchy.kind(source) == hierarchy::NodeKind::sky;
+    const unsigned side = 8;
+    std::array<rays::Ray, kSecondRays> bundle;
+    std::array<double, kSecondRays> weights{};
+    std::array<unsigned, kSecondRays> quarters{};
+    std::array<std::uint8_t, kSecondRays> blocked{};
+    unsigned used = 0;
+    for (unsigned i = 0; i < side * side; ++i) {
+        const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
+        const SurfaceSample p = sampler.at(i, side, jitter.x, jitter.y);
+        rays::Ray ray;
+        double weight = p.measure;
+        if (isSky) {
+            // Directions uniform over the upper hemisphere, strata permuted against those of the receiver.
+            const unsigned j = (i * 37u + 11u) & 63u;
+            const double y = (j % side + jitter.z) / side;
+            const double angle = 2.0 * base::kPi * (j / side + jitter.w) / side;
+            const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
+            const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
+            weight *= std::max(0.0, glm::dot(p.normal, direction));
+            ray = rays.halfLine(p.position, p.normal, direction);
+        } else {
+            const scene::Light& light = hierarchy.scene().lights[hierarchy.lightIndex(source)];
+            if (light.kind == scene::LightKind::directional) {
+                weight *= std::max(0.0, -glm::dot(p.normal, light.direction));
+                ray = rays.halfLine(p.position, p.normal, -light.direction);
+            } else {
+                const Vec3d d = light.position - p.position;
+                const double r2 = std::max(glm::dot(d, d), 1e-12);
+                weight *= std::max(0.0, glm::dot(p.normal, d)) / (r2 * std::sqrt(r2));
+                ray = rays.segment(p.position, p.normal, light.position, Vec3d(0.0));
+            }
+        }
+        if (weight > 0.0) {
+            weights[used] = weight;
+            quarters[used] = (i % side) / 4 + 2 * (i / side / 4);
+            bundle[used++] = ray;
+        }
+    }
+    rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+    Stage whole;
+    std::array<Stage, 4> quarter;
+    for (unsigned i = 0; i < used; ++i) {
+        whole.add(weights[i], blocked[i] != 0);
+        quarter[quarters[i]].add(weights[i], blocked[i] != 0);
+    }
+    VisibilitySample sample = toSample(whole);
+    for (const Stage& part : quarter) {
+        if (part.count > 0) {
+            sample.deviation = std::max(sample.deviation, std::abs(static_cast<float>(part.ratio()) - sample.mean));
+        }
+    }
+    return sample;
+}
+
+}  // namespace fluxwalk::transport
