@@ -38,7 +38,8 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// Largest reflectance that the solver accepts; the readers clamp to it with a warning.
+/// Largest reflectance that the solver accepts. The readers clamp factors without a texture to it,
+/// scene/texture each sample of a texture; both with a warning from the reader.
 inline constexpr float kMaxReflectance = 0.98f;
 
 /// Diffuse material. Reflectance = factor x sRGB texture, emission = factor x sRGB texture.

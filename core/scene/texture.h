@@ -15,8 +15,8 @@ class TextureSet {
   public:
     explicit TextureSet(const Scene& scene);
 
-    /// Bilinear sample of colour (linear light) and alpha; `level` 0 is the full picture. White where the
-    /// reference names none.
+    /// Sample of colour (linear light) and alpha, bilinear within a level and linear between two; `level` 0
+    /// is the full picture. White where the reference names none.
     base::Vec4 sample(const TextureRef& texture, const base::Vec2d& texcoord, float level = 0.0f) const;
     /// Pyramid level at which one texel is as large as `footprint` in texture coordinates (before the
     /// transform).
@@ -26,16 +26,29 @@ class TextureSet {
     struct Level {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
+        /// Linear light; empty in level 0, which keeps its bytes (a quarter of the memory).
         std::vector<base::Vec4> texels;
+        std::vector<std::uint8_t> bytes;
+
+        base::Vec4 at(std::uint32_t x, std::uint32_t y) const;
     };
+    static Level halve(const Level& fine);
+    static base::Vec4 bilinear(const Level& level, const TextureRef& texture, const base::Vec2d& uv);
+
     std::vector<std::vector<Level>> images_;
 };
 
-/// Means over a region by true area: reflectance, and emission in lm/m2 as it leaves the front.
+/// How much of a surface is there at a coordinate of its reflectance texture: 1; in AlphaMode::mask 0 in a
+/// hole; in AlphaMode::blend the alpha.
+float coverageAt(const Material& material, const TextureSet& textures, const base::Vec2d& texcoord);
+
+/// Reflectance (at most kMaxReflectance) and emission in lm/m2 as it leaves the front, both weighed by what
+/// is there (coverageAt): a hole neither reflects nor emits.
 struct RegionMaterial {
     Rgb reflectance{0.0f};
     Rgb emission{0.0f};
 };
+/// Means over a region by true area.
 RegionMaterial regionMaterial(const Scene& scene, const TextureSet& textures, const Object& object,
                               std::uint32_t patch, const surface::Region& region);
 

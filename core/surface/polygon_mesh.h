@@ -27,6 +27,7 @@ class PolygonMesh final : public Surface {
     std::array<Vec3d, 4> corners(std::uint32_t patch) const;
     std::uint32_t cornerCount(std::uint32_t patch) const;
 
+    std::string_view kind() const override { return "polygon mesh"; }
     std::uint32_t patchCount() const override { return static_cast<std::uint32_t>(patches_.size()); }
     PatchDomain domain(std::uint32_t patch) const override;
     SurfacePoint evaluate(std::uint32_t patch, const Vec2d& uv) const override;

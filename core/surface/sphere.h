@@ -13,6 +13,7 @@ class Sphere final : public Surface {
     explicit Sphere(const base::Mat4d& worldFromUnit, bool inside = false);
     Sphere(const Vec3d& center, double radius, bool inside = false);
 
+    std::string_view kind() const override { return "sphere"; }
     std::uint32_t patchCount() const override { return 8; }
     PatchDomain domain(std::uint32_t /*patch*/) const override { return PatchDomain::triangle; }
     SurfacePoint evaluate(std::uint32_t patch, const Vec2d& uv) const override;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "core/base/bounds.h"
 #include "core/base/normal_cone.h"
@@ -61,6 +62,9 @@ struct TriangleView {
 class Surface {
   public:
     virtual ~Surface() = default;
+
+    /// What it is, in the words of the design ("sphere", "polygon mesh").
+    virtual std::string_view kind() const { return "surface"; }
 
     virtual std::uint32_t patchCount() const = 0;
     virtual PatchDomain domain(std::uint32_t patch) const = 0;
