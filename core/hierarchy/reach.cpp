@@ -14,13 +14,16 @@ using base::Vec3d;
 
 namespace {
 
-/// Rays from each side of each object; a side that is missed by all of them sees less than about 1 % of what light reaches.
-constexpr unsigned kRaysPerSide = 384;
+/// Light is followed from every emitter for this many walks, and from every side that they did not meet,
+/// backwards.
+constexpr unsigned kForwardWalks = 512;
+constexpr unsigned kBackwardWalks = 128;
+constexpr unsigned kMaxBounces = 16;
 
-struct SideView {
-    std::vector<std::uint32_t> seen;  ///< sides met, as object * 2 + back, sorted
-    bool seesLight = false;
-    bool escapes = false;
+/// A point on one side of an object.
+struct Stand {
+    Vec3d position;
+    Vec3d normal;  ///< towards the side
 };
 
 // Cosine-weighted direction about n.
@@ -33,95 +36,201 @@ Vec3d cosineDirection(const Vec3d& n, const Vec2d& u) {
            std::sqrt(std::max(0.0, 1.0 - u.x)) * n;
 }
 
-bool seesLight(const scene::Scene& scene, const rays::RayScene& rays, const Vec3d& x, const Vec3d& n) {
-    return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const scene::Light& light) {
-        if (light.kind == scene::LightKind::directional) {
-            return glm::dot(n, light.direction) < 0.0 && !rays.isOccluded(rays.halfLine(x, n, -light.direction));
-        }
-        const Vec3d toLight = light.position - x;
-        return glm::dot(n, toLight) > 0.0 && !rays.isOccluded(rays.segment(x, n, light.position, Vec3d(0.0)));
-    });
-}
-
-SideView look(const scene::Scene& scene, const rays::RayScene& rays, std::uint32_t object, bool back,
-              std::uint64_t seed) {
-    SideView view;
-    const surface::Surface& surface = *scene.objects[object].surface;
-    const std::uint32_t patches = surface.patchCount();
-    base::RandomStream random(base::combine(base::combine(seed, object), back ? 1 : 0));
-    for (unsigned i = 0; i < kRaysPerSide; ++i) {
-        // Patches in turn where there are few, a spread of them where there are many.
-        const auto patch = static_cast<std::uint32_t>(patches <= kRaysPerSide
-                                                          ? i % patches
-                                                          : static_cast<std::uint64_t>(i) * patches / kRaysPerSide);
-        const surface::Region whole = surface::wholePatch(surface.domain(patch));
-        const surface::SurfacePoint p = surface.evaluate(patch, surface::mapToRegion(whole, random.next2()).uv);
-        const Vec3d n = back ? -p.normal : p.normal;
-        const Vec3d direction = cosineDirection(n, random.next2());
-        const auto hit = rays.closest(rays.halfLine(p.position, n, direction));
-        if (hit) {
-            view.seen.push_back(base::index(hit->object) * 2 + (hit->back ? 1u : 0u));
-        } else {
-            view.escapes = true;
-            view.seesLight = view.seesLight || (scene.sky != base::Rgb(0.0f) && direction.y > 0.0);
-        }
-        if (!view.seesLight && i % 4 == 0) {
-            view.seesLight = seesLight(scene, rays, p.position, n);
+class Explorer {
+  public:
+    Explorer(const scene::Scene& scene, const rays::RayScene& rays) : scene_(scene), rays_(rays) {
+        for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+            if (scene.materials[scene.objects[i].material].isEmissive() &&
+                scene.objects[i].surface->patchCount() > 0) {
+                emitters_.push_back(i);
+            }
         }
     }
-    std::sort(view.seen.begin(), view.seen.end());
-    view.seen.erase(std::unique(view.seen.begin(), view.seen.end()), view.seen.end());
-    return view;
+
+    const std::vector<std::uint32_t>& emitters() const { return emitters_; }
+
+    bool emits(std::uint32_t object, bool back) const {
+        const scene::Material& material = scene_.materials[scene_.objects[object].material];
+        return material.isEmissive() && (!back || material.doubleSided);
+    }
+
+    // `turn` runs through the patches.
+    Stand stand(std::uint32_t object, bool back, unsigned turn, unsigned turns,
+                base::RandomStream& random) const {
+        const surface::Surface& surface = *scene_.objects[object].surface;
+        const std::uint32_t patches = surface.patchCount();
+        const auto patch = static_cast<std::uint32_t>(
+            patches <= turns ? turn % patches : static_cast<std::uint64_t>(turn) * patches / turns);
+        const surface::Region whole = surface::wholePatch(surface.domain(patch));
+        const surface::SurfacePoint p =
+            surface.evaluate(patch, surface::mapToRegion(whole, random.next2()).uv);
+        return {p.position, back ? -p.normal : p.normal};
+    }
+
+    /// What a walk finds on its way.
+    struct Step {
+        bool escaped = false;
+        bool escapedUp = false;
+        std::uint32_t object = 0;
+        bool back = false;
+        Stand at;
+    };
+    Step step(const Stand& from, const Vec3d& direction) const {
+        Step s;
+        const auto hit = rays_.closest(rays_.halfLine(from.position, from.normal, direction));
+        if (!hit) {
+            s.escaped = true;
+            s.escapedUp = direction.y > 0.0;
+            return s;
+        }
+        s.object = base::index(hit->object);
+        s.back = hit->back;
+        const surface::Surface& surface = *scene_.objects[s.object].surface;
+        const Vec3d met = from.position + static_cast<double>(hit->t) * direction;
+        const surface::SurfacePoint p = surface.evaluate(hit->patch, surface.locate(hit->patch, met));
+        s.at = {p.position, s.back ? -p.normal : p.normal};
+        return s;
+    }
+
+    // Whether a point of a random emitter, or any light without area, is seen from here.
+    bool seesEmitter(const Stand& at, base::RandomStream& random) const {
+        for (const scene::Light& light : scene_.lights) {
+            const bool isDirectional = light.kind == scene::LightKind::directional;
+            const Vec3d d = isDirectional ? -light.direction : light.position - at.position;
+            if (glm::dot(at.normal, d) > 0.0 &&
+                !rays_.isOccluded(isDirectional
+                                      ? rays_.halfLine(at.position, at.normal, d)
+                                      : rays_.segment(at.position, at.normal, light.position, Vec3d(0.0)))) {
+                return true;
+            }
+        }
+        if (emitters_.empty()) {
+            return false;
+        }
+        const auto pick = static_cast<std::size_t>(random.next() * static_cast<double>(emitters_.size()));
+        const std::uint32_t object = emitters_[pick];
+        const auto turn = static_cast<unsigned>(random.next() * kForwardWalks);
+        Stand lamp = stand(object, false, turn, kForwardWalks, random);
+        const Vec3d d = lamp.position - at.position;
+        if (glm::dot(lamp.normal, d) > 0.0 && emits(object, true)) {
+            lamp.normal = -lamp.normal;
+        }
+        return glm::dot(at.normal, d) > 0.0 && glm::dot(lamp.normal, d) < 0.0 &&
+               !rays_.isOccluded(rays_.segment(at.position, at.normal, lamp.position, lamp.normal));
+    }
+
+  private:
+    const scene::Scene& scene_;
+    const rays::RayScene& rays_;
+    std::vector<std::uint32_t> emitters_;
+};
+
+/// Sides met by light, as object * 2 + back, and whether any left the scene.
+struct Found {
+    std::vector<std::uint32_t> sides;
+    bool escaped = false;
+};
+
+// Light that goes from a stand, bouncing off whatever it meets.
+void follow(const Explorer& explorer, Stand at, Vec3d direction, base::RandomStream& random, Found& found) {
+    for (unsigned bounce = 0; bounce < kMaxBounces; ++bounce) {
+        const Explorer::Step step = explorer.step(at, direction);
+        if (step.escaped) {
+            found.escaped = true;
+            return;
+        }
+        found.sides.push_back(step.object * 2 + (step.back ? 1u : 0u));
+        at = step.at;
+        direction = cosineDirection(at.normal, random.next2());
+    }
+}
+
+// Whether light can come to a side: walks backwards until one sees an emitter.
+bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t object, bool back,
+           std::uint64_t key, Found& found) {
+    base::RandomStream random(key);
+    for (unsigned walk = 0; walk < kBackwardWalks; ++walk) {
+        Stand at = explorer.stand(object, back, walk, kBackwardWalks, random);
+        for (unsigned bounce = 0; bounce < kMaxBounces; ++bounce) {
+            if (explorer.seesEmitter(at, random)) {
+                return true;
+            }
+            const Explorer::Step step = explorer.step(at, cosineDirection(at.normal, random.next2()));
+            if (step.escaped) {
+                if (step.escapedUp && scene.sky != base::Rgb(0.0f)) {
+                    found.escaped = true;
+                    return true;
+                }
+                break;
+            }
+            if (explorer.emits(step.object, step.back)) {
+                return true;
+            }
+            at = step.at;
+        }
+    }
+    return false;
 }
 
 }  // namespace
 
-ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
-                              std::uint64_t seed) {
+ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& rays,
+                              const base::Executor& executor, std::uint64_t seed) {
+    const Explorer explorer(scene, rays);
     const std::size_t sideCount = scene.objects.size() * 2;
-    std::vector<SideView> views(sideCount);
-    executor.forRange(sideCount, 4, [&](std::size_t begin, std::size_t end) {
+    const std::size_t sourceCount = explorer.emitters().size() + scene.lights.size();
+    // A few thousand walks in all where there are many emitters.
+    const unsigned walks = static_cast<unsigned>(
+        std::clamp<std::size_t>(sourceCount == 0 ? 0 : 65536 / sourceCount, 16, kForwardWalks));
+    std::vector<Found> forward(sourceCount);
+    executor.forRange(sourceCount, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
-            const auto object = static_cast<std::uint32_t>(s / 2);
-            if (scene.objects[object].surface->patchCount() > 0) {
-                views[s] = look(scene, rays, object, s % 2 == 1, seed);
+            base::RandomStream random(base::combine(seed, s));
+            for (unsigned walk = 0; walk < walks; ++walk) {
+                if (s < explorer.emitters().size()) {
+                    const std::uint32_t object = explorer.emitters()[s];
+                    const Stand at = explorer.stand(object, explorer.emits(object, true) && walk % 2 == 1,
+                                                    walk, walks, random);
+                    follow(explorer, at, cosineDirection(at.normal, random.next2()), random, forward[s]);
+                } else if (scene.lights[s - explorer.emitters().size()].kind !=
+                           scene::LightKind::directional) {
+                    const scene::Light& light = scene.lights[s - explorer.emitters().size()];
+                    const double y = 1.0 - 2.0 * random.next();
+                    const double angle = 2.0 * base::kPi * random.next();
+                    const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
+                    const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
+                    const base::Rgb there = scene::intensityToward(light, direction);
+                    if (there != base::Rgb(0.0f)) {
+                        follow(explorer, {light.position, Vec3d(0.0)}, direction, random, forward[s]);
+                    }
+                }
             }
         }
     });
-    // Seeing is mutual: collect both directions, then spread from what emits.
-    std::vector<std::vector<std::uint32_t>> neighbours(sideCount);
-    for (std::uint32_t s = 0; s < sideCount; ++s) {
-        for (const std::uint32_t other : views[s].seen) {
-            neighbours[s].push_back(other);
-            neighbours[other].push_back(s);
+    ReachedSides result;
+    result.sides.assign(scene.objects.size(), {false, false});
+    for (const Found& found : forward) {
+        result.isOpen = result.isOpen || found.escaped;
+        for (const std::uint32_t side : found.sides) {
+            result.sides[side / 2][side % 2] = true;
         }
     }
-    std::vector<std::uint32_t> frontier;
-    std::vector<bool> reached(sideCount, false);
-    for (std::uint32_t s = 0; s < sideCount; ++s) {
-        const scene::Material& material = scene.materials[scene.objects[s / 2].material];
-        const bool emits = material.isEmissive() && (s % 2 == 0 || material.doubleSided) &&
-                           scene.objects[s / 2].surface->patchCount() > 0;
-        if (emits || views[s].seesLight) {
-            reached[s] = true;
-            frontier.push_back(s);
-        }
-    }
-    while (!frontier.empty()) {
-        const std::uint32_t s = frontier.back();
-        frontier.pop_back();
-        for (const std::uint32_t other : neighbours[s]) {
-            if (!reached[other]) {
-                reached[other] = true;
-                frontier.push_back(other);
+    std::vector<std::uint8_t> lit(sideCount, 0);
+    std::vector<Found> backward(sideCount);
+    executor.forRange(sideCount, 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t s = begin; s < end; ++s) {
+            const auto object = static_cast<std::uint32_t>(s / 2);
+            const bool back = s % 2 == 1;
+            if (scene.objects[object].surface->patchCount() > 0 && !result.sides[object][back ? 1 : 0]) {
+                const bool is = explorer.emits(object, back) ||
+                                isLit(scene, explorer, object, back, base::combine(seed + 1, s), backward[s]);
+                lit[s] = is ? 1 : 0;
             }
         }
-    }
-    ReachedSides result;
-    result.sides.resize(scene.objects.size());
-    for (std::uint32_t s = 0; s < sideCount; ++s) {
-        result.sides[s / 2][s % 2] = reached[s];
-        result.isOpen = result.isOpen || (reached[s] && views[s].escapes);
+    });
+    for (std::size_t s = 0; s < sideCount; ++s) {
+        result.sides[s / 2][s % 2] = result.sides[s / 2][s % 2] || lit[s] != 0;
+        result.isOpen = result.isOpen || backward[s].escaped;
     }
     return result;
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/photometry.h"
 #include "core/transport/coefficients.h"
+#include "core/transport/visibility.h"
 
 namespace fluxwalk::solve {
 
