@@ -90,7 +90,7 @@ double Audit::relativeDefect() const {
     return all > 0.0 ? (std::abs(defect.x) + std::abs(defect.y) + std::abs(defect.z)) / all : 0.0;
 }
 
-std::vector<float> computeRowSums(const Problem& problem) {
+std::vector<float> computeRowSums(const Problem& problem, const std::vector<float>& scale) {
     const Hierarchy& h = problem.hierarchy;
     std::vector<float> sums(h.nodeCount(), 0.0f);
     // Parents stand before their children.
@@ -104,7 +104,8 @@ std::vector<float> computeRowSums(const Problem& problem) {
             const hierarchy::Link& link = problem.links.links[l];
             const NodeId source = link.a == id ? link.b : link.a;
             if (h.kind(source) == NodeKind::element) {
-                sum += static_cast<double>(link.transfer() * h.shape(source).exposed);
+                const float factor = scale.empty() ? 1.0f : scale[i] * scale[base::index(source)];
+                sum += static_cast<double>(factor * link.transfer() * h.shape(source).exposed);
             }
         }
         const NodeId parent = h.parent(id);
@@ -143,7 +144,7 @@ Audit auditEnergy(const Problem& problem, std::size_t rayCount) {
     audit.escaped = audit.isClosed ? Vec3d(0.0) : countEscaped(problem, leaves, rayCount);
 
     if (audit.isClosed) {
-        const std::vector<float> sums = computeRowSums(problem);
+        const std::vector<float> sums = computeRowSums(problem, {});
         std::vector<std::pair<float, float>> defects;
         double mean = 0.0;
         double area = 0.0;

@@ -9,6 +9,7 @@ namespace fluxwalk::solve {
 Audit auditEnergy(const Problem& problem, std::size_t rayCount);
 
 /// Sum of the form factors that a leaf gathers through its own links and its ancestors', at index of each leaf's node; 0 elsewhere.
-std::vector<float> computeRowSums(const Problem& problem);
+/// `scale` multiplies the transfers of each node (Problem::rowScale), or is empty.
+std::vector<float> computeRowSums(const Problem& problem, const std::vector<float>& scale);
 
 }  // namespace fluxwalk::solve

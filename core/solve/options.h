@@ -9,9 +9,16 @@ namespace fluxwalk::solve {
 
 using transport::OracleKind;
 
+/// Where the requested error is to hold.
+enum class ErrorOf : std::uint8_t {
+    displayed,  ///< the interpolated vertex values of the lit mesh
+    gathered    ///< irradiance gathered at points (sensors, pictures), two to three times more exact from the same links
+};
+
 struct Options {
     /// Requested error p: RMS of E - E* over all sides that light reaches, as a part of the mean irradiance.
     double error = 0.02;
+    ErrorOf errorOf = ErrorOf::displayed;
     OracleKind oracle = OracleKind::bounded;
     /// Largest error of a link in lux (bf: of the receiver; bfa and bounded: spread over the whole scene's
     /// area). 0 chooses it by a closed loop that ends at `error`.

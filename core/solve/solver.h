@@ -10,12 +10,10 @@
 #include "core/solve/options.h"
 #include "core/solve/statistics.h"
 
-namespace fluxwalk::hierarchy {
-class Hierarchy;
-}
-
 /// Hierarchical radiosity: the loop of the design, section 4.
 namespace fluxwalk::solve {
+
+struct Problem;
 
 /// Immutable view of the solution at one moment, shared by pointer between threads.
 struct Snapshot {
@@ -55,11 +53,13 @@ class Solver {
     /// Display meshes of the present solution, for all objects.
     scene::LitMeshes litMeshes() const;
 
-    struct State;
-    /// The solved state, for gathering at points (core/image).
-    const State& state() const { return *state_; }
+    /// The solved problem, for gathering at points.
+    const Problem& problem() const;
 
   private:
+    double estimateError();
+
+    struct State;
     std::unique_ptr<State> state_;
 };
 

@@ -32,6 +32,8 @@ struct Problem {
     hierarchy::Hierarchy hierarchy;
     hierarchy::LinkStore links;
     Statistics statistics;
+    /// Factor of each node on all its transfers, from row scaling; empty while it is off.
+    std::vector<float> rowScale;
 
     /// Smallest area in m2 that is still split.
     double minArea() const {

@@ -74,6 +74,7 @@ void Sweeper::pushPull() {
 void Sweeper::gather(const Block& block) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     const std::vector<hierarchy::Link>& links = problem_.links.links;
+    const bool isScaled = problem_.rowScale.size() == h.nodeCount();
     problem_.executor.forRange(block.end - block.begin, 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const NodeId id = order_[block.begin + i];
@@ -81,9 +82,14 @@ void Sweeper::gather(const Block& block) {
             for (const std::uint32_t l : problem_.links.endingAt(id)) {
                 const hierarchy::Link& link = links[l];
                 const NodeId source = link.a == id ? link.b : link.a;
-                sum += Vec3d(h.light(source).radiosity) * static_cast<double>(link.transfer() * h.shape(source).exposed);
+                float transfer = link.transfer() * h.shape(source).exposed;
+                if (isScaled) {
+                    transfer *= problem_.rowScale[base::index(source)];
+                }
+                sum += Vec3d(h.light(source).radiosity) * static_cast<double>(transfer);
             }
-            h.light(id).gathered = Rgb(sum / static_cast<double>(h.shape(id).area));
+            const double scale = isScaled ? static_cast<double>(problem_.rowScale[base::index(id)]) : 1.0;
+            h.light(id).gathered = Rgb(sum * (scale / static_cast<double>(h.shape(id).area)));
         }
     });
 }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/display/display_mesh.h"
+#include "core/solve/probes.h"
+
+namespace fluxwalk::solve {
+
+/// The displayed form of a solution: rebuilds the meshes of the objects whose leaves or values changed and shares the others.
+class DisplayUpdate {
+  public:
+    explicit DisplayUpdate(Problem& problem);
+
+    /// Meshes of the present solution, in the order of the objects.
+    scene::LitMeshes refresh();
+
+    /// Displayed irradiance at probes; refreshes first.
+    std::vector<Rgb> valuesAt(const std::vector<Probe>& probes);
+
+  private:
+    Problem& problem_;
+    std::vector<std::vector<NodeId>> patchesOf_;  ///< by object
+    std::vector<display::PatchTopology> topologies_;
+    std::vector<display::DisplayMeshes> meshes_;
+    std::vector<std::uint64_t> digests_;  ///< of each object's leaves and values
+};
+
+}  // namespace fluxwalk::solve
