@@ -1,0 +1,250 @@
+#include "core/display/vertex_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace fluxwalk::display {
+
+namespace {
+
+/// How far a vertex may leave the range of its leaves, as a part of the range that these and their neighbours
+/// span: little where leaves surround it, so that no halos follow shadows' edges; more at borders, where
+/// values are truly extrapolated. (Chosen by display error on known irradiances, with the weights below.)
+constexpr double kInnerMargin = 0.1;
+constexpr double kBorderMargin = 0.5;
+/// Length of the mean direction from a vertex to its leaves on a straight border of square leaves.
+constexpr double kBorderBias = 0.7071;
+/// Added to the diagonal of the normal equations, relative to their trace: leaves in one row have no gradient
+/// across it.
+constexpr double kRidge = 1e-7;
+
+/// A leaf of the solution: the centroid, where its mean is the value of a linear function, and a frame in its
+/// plane.
+struct Sample {
+    Vec3d center{};
+    Vec3d tangent{};
+    Vec3d bitangent{};
+    double size = 0.0;  ///< metres
+    Vec3d irradiance{};
+    std::array<Vec3d, 2> gradient{};  ///< lux per metre along tangent and bitangent
+    /// Range of the leaf and its neighbours.
+    Vec3d least{};
+    Vec3d most{};
+    std::uint32_t firstCell = 0;
+    std::uint32_t lastCell = 0;
+
+    Vec2d inFrame(const Vec3d& p) const {
+        const Vec3d d = p - center;
+        return {glm::dot(d, tangent), glm::dot(d, bitangent)};
+    }
+    Vec3d rise(const Vec3d& p) const {
+        const Vec2d d = inFrame(p);
+        return d.x * gradient[0] + d.y * gradient[1];
+    }
+};
+
+class Reconstruction {
+  public:
+    Reconstruction(std::span<const Cell> cells, const MeshVertices& mesh, std::span<const Rgb> sources)
+        : cells_(cells), mesh_(mesh) {
+        makeSamples(sources);
+        findIncident();
+    }
+
+    MeshValues run() {
+        for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+            fitGradient(s);
+        }
+        MeshValues out;
+        out.values.reserve(mesh_.pointOfValue.size());
+        for (std::uint32_t v = 0; v < mesh_.pointOfValue.size(); ++v) {
+            out.values.emplace_back(valueAt(v));
+        }
+        out.centers.reserve(cells_.size());
+        for (const Cell& cell : cells_) {
+            const Sample& sample = samples_[cell.source];
+            Vec3d value = sample.irradiance;
+            if (sample.lastCell - sample.firstCell > 1) {
+                value += sample.rise(0.25 * (corner(cell, 0) + corner(cell, 1) + corner(cell, 2) +
+                                             corner(cell, cell.cornerCount - 1u)));
+                value = glm::max(glm::clamp(value, sample.least, sample.most), Vec3d(0.0));
+            }
+            out.centers.emplace_back(value);
+        }
+        return out;
+    }
+
+  private:
+    const Vec3d& corner(const Cell& cell, unsigned i) const { return mesh_.positions[cell.points[i]]; }
+
+    void makeSamples(std::span<const Rgb> sources) {
+        samples_.resize(sources.size());
+        std::uint32_t cell = 0;
+        for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+            Sample& sample = samples_[s];
+            sample.irradiance = Vec3d(sources[s]);
+            sample.firstCell = cell;
+            Vec3d normal(0.0);
+            Vec3d moment(0.0);
+            double weights = 0.0;
+            for (; cell < cells_.size() && cells_[cell].source == s; ++cell) {
+                for (unsigned i = 2; i < cells_[cell].cornerCount; ++i) {
+                    const Vec3d& a = corner(cells_[cell], 0);
+                    const Vec3d& b = corner(cells_[cell], i - 1);
+                    const Vec3d& c = corner(cells_[cell], i);
+                    const Vec3d across = glm::cross(b - a, c - a);
+                    const double weight = glm::length(across);
+                    normal += across;
+                    moment += weight * (a + b + c);
+                    weights += weight;
+                }
+            }
+            sample.lastCell = cell;
+            FLUXWALK_CHECK_LT(sample.firstCell, sample.lastCell);
+            const Cell& first = cells_[sample.firstCell];
+            sample.center = weights > 0.0 ? moment / (3.0 * weights) : corner(first, 0);
+            sample.size = std::sqrt(0.5 * weights);
+            const Vec3d along = corner(first, 1) - corner(first, 0);
+            const Vec3d across = glm::cross(normal, along);
+            const double length = glm::length(across);
+            if (length > 0.0) {
+                sample.bitangent = across / length;
+                sample.tangent = glm::normalize(glm::cross(sample.bitangent, normal));
+            }
+        }
+    }
+
+    template <class Visit>
+    void forValues(std::size_t cell, const Visit& visit) const {
+        const CellVertices& own = mesh_.cells[cell];
+        for (const auto& some : {own.corners, own.middles}) {
+            for (const std::uint32_t v : some) {
+                if (v != kNone) {
+                    visit(mesh_.vertices[v].value);
+                }
+            }
+        }
+    }
+
+    // Leaves around each value, in one array.
+    void findIncident() {
+        const std::size_t valueCount = mesh_.pointOfValue.size();
+        begin_.assign(valueCount + 1, 0);
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            forValues(i, [&](std::uint32_t v) { ++begin_[v + 1]; });
+        }
+        for (std::size_t v = 0; v < valueCount; ++v) {
+            begin_[v + 1] += begin_[v];
+        }
+        incident_.resize(begin_[valueCount]);
+        end_.assign(begin_.begin(), begin_.end() - 1);
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const std::uint32_t source = cells_[i].source;
+            forValues(i, [&](std::uint32_t v) {
+                // Cells of one leaf follow each other: it was added last if it was added at all.
+                if (end_[v] == begin_[v] || incident_[end_[v] - 1] != source) {
+                    incident_[end_[v]++] = source;
+                }
+            });
+        }
+    }
+
+    std::span<const std::uint32_t> incident(std::uint32_t value) const {
+        return {incident_.data() + begin_[value], end_[value] - begin_[value]};
+    }
+
+    // Neighbours over an edge come twice, over a corner once. Weights fall with the distance squared, and
+    // with the size of smaller neighbours, of which there are more.
+    void fitGradient(std::uint32_t s) {
+        Sample& sample = samples_[s];
+        double xx = 0.0;
+        double xy = 0.0;
+        double yy = 0.0;
+        Vec3d alongX(0.0);
+        Vec3d alongY(0.0);
+        sample.least = sample.irradiance;
+        sample.most = sample.irradiance;
+        const auto addNeighbour = [&](const Sample& other) {
+            const Vec2d d = sample.inFrame(other.center);
+            const double squared = glm::dot(d, d);
+            if (!(squared > 0.0)) {
+                return;
+            }
+            const double weight = std::min(1.0, other.size / sample.size) / squared;
+            const Vec3d rise = other.irradiance - sample.irradiance;
+            const double x = weight * d.x;
+            const double y = weight * d.y;
+            xx += x * d.x;
+            xy += x * d.y;
+            yy += y * d.y;
+            alongX += x * rise;
+            alongY += y * rise;
+            sample.least = glm::min(sample.least, other.irradiance);
+            sample.most = glm::max(sample.most, other.irradiance);
+        };
+        for (std::uint32_t cell = sample.firstCell; cell < sample.lastCell; ++cell) {
+            forValues(cell, [&](std::uint32_t v) {
+                for (const std::uint32_t other : incident(v)) {
+                    if (other != s) {
+                        addNeighbour(samples_[other]);
+                    }
+                }
+            });
+        }
+        const double ridge = kRidge * (xx + yy);
+        xx += ridge;
+        yy += ridge;
+        const double determinant = xx * yy - xy * xy;
+        if (determinant > 0.0) {
+            sample.gradient[0] = (yy * alongX - xy * alongY) / determinant;
+            sample.gradient[1] = (xx * alongY - xy * alongX) / determinant;
+        }
+    }
+
+    Vec3d valueAt(std::uint32_t value) const {
+        const Vec3d& p = mesh_.positions[mesh_.pointOfValue[value]];
+        const auto leaves = incident(value);
+        const Sample& first = samples_[leaves[0]];
+        // Sums of differences: those of a constant vanish exactly.
+        Vec3d sum(0.0);
+        Vec3d directions(0.0);
+        Vec3d low = first.irradiance;
+        Vec3d high = first.irradiance;
+        Vec3d least = first.least;
+        Vec3d most = first.most;
+        for (const std::uint32_t s : leaves) {
+            const Sample& sample = samples_[s];
+            sum += (sample.irradiance - first.irradiance) + sample.rise(p);
+            const Vec3d d = sample.center - p;
+            const double squared = glm::dot(d, d);
+            directions += squared > 0.0 ? d / std::sqrt(squared) : Vec3d(0.0);
+            low = glm::min(low, sample.irradiance);
+            high = glm::max(high, sample.irradiance);
+            least = glm::min(least, sample.least);
+            most = glm::max(most, sample.most);
+        }
+        const auto count = static_cast<double>(leaves.size());
+        const double bias = std::min(1.0, glm::length(directions) / (kBorderBias * count));
+        const Vec3d margin = (kInnerMargin + (kBorderMargin - kInnerMargin) * bias) * (most - least);
+        const Vec3d mean = first.irradiance + sum / count;
+        return glm::max(glm::clamp(mean, low - margin, high + margin), Vec3d(0.0));
+    }
+
+    std::span<const Cell> cells_;
+    const MeshVertices& mesh_;
+    std::vector<Sample> samples_;
+    std::vector<std::uint32_t> begin_;
+    std::vector<std::uint32_t> end_;
+    std::vector<std::uint32_t> incident_;
+};
+
+}  // namespace
+
+MeshValues reconstructValues(std::span<const Cell> cells, const MeshVertices& mesh,
+                             std::span<const Rgb> sources) {
+    return Reconstruction(cells, mesh, sources).run();
+}
+
+}  // namespace fluxwalk::display
