@@ -1,6 +1,7 @@
 #include "core/display/interpolate.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace fluxwalk::display {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/check.h"
 
@@ -63,15 +64,8 @@ class Reconstruction {
             out.values.emplace_back(valueAt(v));
         }
         out.centers.reserve(cells_.size());
-        for (const Cell& cell : cells_) {
-            const Sample& sample = samples_[cell.source];
-            Vec3d value = sample.irradiance;
-            if (sample.lastCell - sample.firstCell > 1) {
-                value += sample.rise(0.25 * (corner(cell, 0) + corner(cell, 1) + corner(cell, 2) +
-                                             corner(cell, cell.cornerCount - 1u)));
-                value = glm::max(glm::clamp(value, sample.least, sample.most), Vec3d(0.0));
-            }
-            out.centers.emplace_back(value);
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            out.centers.push_back(centerOf(i, out.values));
         }
         return out;
     }
@@ -230,6 +224,24 @@ class Reconstruction {
         const Vec3d margin = (kInnerMargin + (kBorderMargin - kInnerMargin) * bias) * (most - least);
         const Vec3d mean = first.irradiance + sum / count;
         return glm::max(glm::clamp(mean, low - margin, high + margin), Vec3d(0.0));
+    }
+
+    // The leaf's mean; in quarters of a leaf, what the leaf extrapolates to within the quarter's own corners.
+    Rgb centerOf(std::size_t cell, const std::vector<Rgb>& values) const {
+        const Sample& sample = samples_[cells_[cell].source];
+        if (sample.lastCell - sample.firstCell == 1 || cells_[cell].cornerCount != 4) {
+            return Rgb(sample.irradiance);
+        }
+        Vec3d center(0.0);
+        Rgb low(std::numeric_limits<float>::infinity());
+        Rgb high(0.0f);
+        for (unsigned i = 0; i < 4; ++i) {
+            const Rgb& value = values[mesh_.vertices[mesh_.cells[cell].corners[i]].value];
+            low = glm::min(low, value);
+            high = glm::max(high, value);
+            center += 0.25 * corner(cells_[cell], i);
+        }
+        return glm::clamp(Rgb(sample.irradiance + sample.rise(center)), low, high);
     }
 
     std::span<const Cell> cells_;
