@@ -20,19 +20,27 @@ std::uint32_t signedSize(const Cell& cell) {
     return cell.inverted ? 0u - size : size;
 }
 
-Cell childOf(const Cell& parent, unsigned child) {
-    Cell cell = parent;
-    cell.path = surface::childPath(parent.path, child);
-    // Halving the signed size, not the unsigned one, keeps the sign.
-    const std::uint32_t half = kGridSize >> (surface::pathLevel(parent.path) + 1);
-    const std::uint32_t size = parent.inverted ? 0u - half : half;
-    if (parent.cornerCount == 4) {
-        cell.origin = stepFrom(parent.origin, kQuadSteps[child], size);
-    } else {
-        cell.origin = stepFrom(parent.origin, kTriangleSteps[child], size);
-        cell.inverted = parent.inverted != (child == 3);
+using Corners = std::array<GridPoint, 4>;
+
+Corners cornersOf(const Cell& cell) {
+    const std::uint32_t size = signedSize(cell);
+    const auto& steps = cell.cornerCount == 4 ? kQuadSteps : kTriangleSteps;
+    Corners corners;
+    for (unsigned i = 0; i < 4; ++i) {
+        corners[i] = stepFrom(cell.origin, steps[i], size);
     }
-    return cell;
+    return corners;
+}
+
+// Moves a cell's place to that of its quarter, which is `half` wide.
+void descend(Cell& cell, unsigned child, std::uint32_t half) {
+    const std::uint32_t size = cell.inverted ? 0u - half : half;
+    if (cell.cornerCount == 4) {
+        cell.origin = stepFrom(cell.origin, kQuadSteps[child], size);
+    } else {
+        cell.origin = stepFrom(cell.origin, kTriangleSteps[child], size);
+        cell.inverted = cell.inverted != (child == 3);
+    }
 }
 
 class Balancer {
@@ -42,9 +50,7 @@ class Balancer {
 
     void run() {
         for (Cell& cell : cells_) {
-            for (unsigned i = 0; i < cell.cornerCount; ++i) {
-                cell.points[i] = points_.insert(topology_.keyOf(cell.patch, cell.corner(i)));
-            }
+            numberCorners(cell);
         }
         const std::size_t rootCount = cells_.size();
         // A split may unbalance cells that were looked at before: pass over all until nothing happens.
@@ -64,21 +70,29 @@ class Balancer {
     }
 
   private:
-    bool hasPoint(const Cell& cell, const GridPoint& p) const {
-        return points_.find(topology_.keyOf(cell.patch, p)) != kNone;
+    void numberCorners(Cell& cell) {
+        const Corners corners = cornersOf(cell);
+        for (unsigned i = 0; i < cell.cornerCount; ++i) {
+            cell.points[i] = points_.insert(topology_.keyOf(cell.patch, corners[i]));
+        }
     }
 
-    // A vertex anywhere inside half an edge implies one at its middle: ancestors' corners are vertices.
-    bool isUnbalanced(const Cell& cell) const {
-        if (surface::pathLevel(cell.path) >= kMaxLevel) {
-            return false;
-        }
+    std::uint32_t find(const Cell& cell, const GridPoint& p) const {
+        return points_.find(topology_.keyOf(cell.patch, p));
+    }
+
+    // A vertex anywhere inside half an edge implies one at its middle: ancestors' corners are vertices. The
+    // last pass leaves all middles known.
+    bool isUnbalanced(Cell& cell) const {
+        const Corners corners = cornersOf(cell);
+        const bool canSplit = surface::pathLevel(cell.path) < kMaxLevel;
         for (unsigned i = 0; i < cell.cornerCount; ++i) {
-            const GridPoint a = cell.corner(i);
-            const GridPoint b = cell.corner(i + 1 == cell.cornerCount ? 0 : i + 1);
+            const GridPoint& a = corners[i];
+            const GridPoint& b = corners[i + 1u == cell.cornerCount ? 0 : i + 1];
             const GridPoint middle = middleOf(a, b);
-            if (hasPoint(cell, middle) &&
-                (hasPoint(cell, middleOf(a, middle)) || hasPoint(cell, middleOf(middle, b)))) {
+            cell.middles[i] = find(cell, middle);
+            if (cell.middles[i] != kNone && canSplit &&
+                (find(cell, middleOf(a, middle)) != kNone || find(cell, middleOf(middle, b)) != kNone)) {
                 return true;
             }
         }
@@ -87,12 +101,13 @@ class Balancer {
 
     void split(std::size_t index) {
         const Cell parent = cells_[index];
+        const std::uint32_t half = kGridSize >> (surface::pathLevel(parent.path) + 1);
         cells_[index].firstChild = static_cast<std::uint32_t>(cells_.size());
         for (unsigned k = 0; k < 4; ++k) {
-            Cell child = childOf(parent, k);
-            for (unsigned i = 0; i < child.cornerCount; ++i) {
-                child.points[i] = points_.insert(topology_.keyOf(child.patch, child.corner(i)));
-            }
+            Cell child = parent;
+            child.path = surface::childPath(parent.path, k);
+            descend(child, k, half);
+            numberCorners(child);
             cells_.push_back(child);
         }
     }
@@ -125,18 +140,15 @@ class Balancer {
 
 }  // namespace
 
-GridPoint Cell::corner(unsigned i) const {
-    return stepFrom(origin, cornerCount == 4 ? kQuadSteps[i] : kTriangleSteps[i], signedSize(*this));
-}
-
 Cell makeCell(const PatchTopology& topology, std::uint32_t patch, surface::Path path, std::uint32_t source) {
     Cell cell;
+    cell.path = path;
     cell.patch = patch;
     cell.source = source;
     cell.cornerCount = static_cast<std::uint8_t>(topology.cornerCount(patch));
     const unsigned levels = surface::pathLevel(path);
     for (unsigned level = 0; level < levels; ++level) {
-        cell = childOf(cell, surface::pathStep(path, level));
+        descend(cell, surface::pathStep(path, level), kGridSize >> (level + 1));
     }
     return cell;
 }

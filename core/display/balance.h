@@ -16,19 +16,19 @@ struct Cell {
     std::uint32_t source = 0;  ///< the solution's leaf that holds it, as numbered by the caller
     GridPoint origin;          ///< corner 0
     std::array<std::uint32_t, 4> points{};
+    /// Points in the middles of the edges between corners i and i + 1, kNone where there is none.
+    std::array<std::uint32_t, 4> middles{kNone, kNone, kNone, kNone};
     std::uint32_t firstChild = 0;  ///< of four in a row, 0 for none; used while balancing
     std::uint8_t cornerCount = 4;
     bool inverted = false;  ///< triangle whose corners lie towards smaller coordinates
-
-    GridPoint corner(unsigned i) const;
 };
 
 /// Cell of the leaf that `path` names; its points are not numbered yet.
 Cell makeCell(const PatchTopology& topology, std::uint32_t patch, surface::Path path, std::uint32_t source);
 
-/// Numbers the cells' corners in `points` and quarters cells until no edge carries more than one vertex
-/// between its ends, over the borders of patches too. Cells come in and go out ordered by patch and, within
-/// it, depth-first.
+/// Numbers the cells' corners and middles in `points` and quarters cells until no edge carries more than one
+/// vertex between its ends, over the borders of patches too. Cells come in and go out ordered by patch and,
+/// within it, depth-first.
 void balance(const PatchTopology& topology, PointTable& points, std::vector<Cell>& cells);
 
 }  // namespace fluxwalk::display

@@ -15,29 +15,37 @@ class RegionCursor {
 
     const Region& at(std::uint32_t patch, surface::Path path) {
         const unsigned levels = surface::pathLevel(path);
-        unsigned level = 0;
+        unsigned shared = 0;
         if (patch == patch_) {
             const unsigned common = std::min(levels, surface::pathLevel(path_));
-            while (level < common && surface::pathStep(path, level) == surface::pathStep(path_, level)) {
-                ++level;
+            while (shared < common && surface::pathStep(path, shared) == surface::pathStep(path_, shared)) {
+                ++shared;
             }
+            depth_ = std::min(depth_, shared + 1);
         } else {
-            stack_[0] = surface::wholePatch(surface_.domain(patch));
+            whole_ = surface::wholePatch(surface_.domain(patch));
+            depth_ = 0;
         }
-        for (; level < levels; ++level) {
-            stack_[level + 1] =
-                surface::childRegion(surface_, patch, stack_[level], surface::pathStep(path, level));
+        for (; depth_ < levels; ++depth_) {
+            quarters_[depth_] = surface::childRegions(surface_, patch, regionAt(path, depth_));
         }
         patch_ = patch;
         path_ = path;
-        return stack_[levels];
+        return regionAt(path, levels);
     }
 
   private:
+    const Region& regionAt(surface::Path path, unsigned level) const {
+        return level == 0 ? whole_ : quarters_[level - 1][surface::pathStep(path, level - 1)];
+    }
+
     const surface::Surface& surface_;
     std::uint32_t patch_ = kNone;
     surface::Path path_ = surface::kRootPath;
-    std::array<Region, surface::kMaxLevel + 1> stack_;
+    Region whole_;
+    /// Levels whose quarters are known along path_.
+    unsigned depth_ = 0;
+    std::array<std::array<Region, 4>, surface::kMaxLevel> quarters_;
 };
 
 class Collector {
@@ -62,10 +70,8 @@ class Collector {
             }
             for (unsigned k = 0; k < cell.cornerCount; ++k) {
                 const unsigned next = k + 1 == cell.cornerCount ? 0 : k + 1;
-                const std::uint32_t point =
-                    points_.find(topology_.keyOf(cell.patch, middleOf(cell.corner(k), cell.corner(next))));
-                if (point != kNone) {
-                    own.middles[k] = vertexAt(point, cell.patch, [&] {
+                if (cell.middles[k] != kNone) {
+                    own.middles[k] = vertexAt(cell.middles[k], cell.patch, [&] {
                         return surface.splitPoint(cell.patch, region.corners[k], region.corners[next]);
                     });
                 }
@@ -96,14 +102,20 @@ class Collector {
         vertex.point = point;
         vertex.patch = patch;
         vertex.uv = findUv();
-        const surface::SurfacePoint at = topology_.surface().evaluate(patch, vertex.uv);
-        vertex.normal = Vec3(at.normal);
-        if (last == kNone) {
-            out_.heads[point] = number;
-            out_.positions[point] = at.position;
+        if (last != kNone && patch == flatPatch_) {
+            vertex.normal = flatNormal_;
         } else {
-            out_.vertices[last].next = number;
+            const surface::SurfacePoint at = topology_.surface().evaluate(patch, vertex.uv);
+            vertex.normal = Vec3(at.normal);
+            if (last == kNone) {
+                out_.positions[point] = at.position;
+            }
+            if (topology_.surface().isPlanar(patch)) {
+                flatPatch_ = patch;
+                flatNormal_ = vertex.normal;
+            }
         }
+        (last == kNone ? out_.heads[point] : out_.vertices[last].next) = number;
         out_.vertices.push_back(vertex);
         return number;
     }
@@ -146,6 +158,9 @@ class Collector {
     const PointTable& points_;
     const std::vector<Cell>& cells_;
     MeshVertices out_;
+    /// The planar patch seen last, and its normal.
+    std::uint32_t flatPatch_ = kNone;
+    Vec3 flatNormal_{};
     std::vector<std::uint32_t> stack_;
 };
 

@@ -45,7 +45,7 @@ BENCHMARK(adaptiveTriangles)->Unit(benchmark::kMillisecond);
 
 void randomBox(benchmark::State& state) {
     const auto box = makeBox({1, 2, 3});
-    buildMesh(state, *box, makeLeaves(*box, slope, SplitRandomly{3, 10, 0.66}, 1));
+    buildMesh(state, *box, makeLeaves(*box, slope, SplitRandomly{3, 8, 0.62}, 1));
 }
 BENCHMARK(randomBox)->Unit(benchmark::kMillisecond);
 
