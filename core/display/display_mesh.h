@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/display/patch_topology.h"
 #include "core/scene/lit_mesh.h"
 #include "core/surface/region.h"
 
@@ -22,14 +24,28 @@ struct Leaf {
 struct MeshOptions {
     /// Vertex values are not averaged across edges whose faces' normals differ by more (radians).
     double creaseAngle = 0.5236;
+    /// Which sets of texture coordinates to fill; those of a surface that has none stay empty.
+    std::array<bool, 2> texcoords{true, true};
 };
 
-/// Triangulates the leaves of one object: one mesh for each side that has leaves (front first). The leaves of
-/// a patch and side must tile it. `object` and `material` are copied into the result.
-std::vector<std::shared_ptr<const scene::LitMesh>> buildDisplayMeshes(const surface::Surface& surface,
-                                                                      std::uint32_t object,
-                                                                      std::uint32_t material,
-                                                                      std::span<const Leaf> leaves,
-                                                                      const MeshOptions& options);
+/// Where each display leaf's triangles are in its mesh (DisplayLookup reads it). Display leaves are ordered
+/// by patch and, within it, depth-first.
+struct CellTable {
+    std::vector<std::uint32_t> firstCell;      ///< of each patch, then the number of cells
+    std::vector<surface::Path> paths;          ///< of each cell
+    std::vector<std::uint32_t> firstTriangle;  ///< of each cell, then the number of triangles
+};
+
+/// The meshes of one object, front before back; a side without leaves has none.
+struct DisplayMeshes {
+    scene::LitMeshes meshes;
+    std::vector<CellTable> tables;  ///< parallel to the meshes
+};
+
+/// Triangulates the leaves of one object, given in any order; they must tile each patch and side that they
+/// touch. `object` and `material` are copied into the result. The result does not depend on the leaves'
+/// order. Not parallel; objects may be built at the same time.
+DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
+                                 std::span<const Leaf> leaves, const MeshOptions& options);
 
 }  // namespace fluxwalk::display

@@ -31,7 +31,7 @@ Region wholePatch(PatchDomain domain) {
     return {{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{0, 1}}, 3};
 }
 
-Region childRegion(const Surface& surface, std::uint32_t patch, const Region& region, unsigned child) {
+std::array<Region, 4> childRegions(const Surface& surface, std::uint32_t patch, const Region& region) {
     const auto& c = region.corners;
     const auto split = [&](std::uint32_t i, std::uint32_t j) {
         return surface.splitPoint(patch, c[i], c[j]);
@@ -40,32 +40,20 @@ Region childRegion(const Surface& surface, std::uint32_t patch, const Region& re
         const Vec2d ab = split(0, 1);
         const Vec2d bc = split(1, 2);
         const Vec2d ca = split(2, 0);
-        switch (child) {
-            case 0:
-                return {{c[0], ab, ca, ca}, 3};
-            case 1:
-                return {{ab, c[1], bc, bc}, 3};
-            case 2:
-                return {{ca, bc, c[2], c[2]}, 3};
-            default:
-                return {{bc, ca, ab, ab}, 3};
-        }
+        return {Region{{c[0], ab, ca, ca}, 3}, Region{{ab, c[1], bc, bc}, 3}, Region{{ca, bc, c[2], c[2]}, 3},
+                Region{{bc, ca, ab, ab}, 3}};
     }
     const Vec2d e0 = split(0, 1);
     const Vec2d e1 = split(1, 2);
     const Vec2d e2 = split(2, 3);
     const Vec2d e3 = split(3, 0);
     const Vec2d middle = surface.splitPoint(patch, e3, e1);
-    switch (child) {
-        case 0:
-            return {{c[0], e0, middle, e3}, 4};
-        case 1:
-            return {{e0, c[1], e1, middle}, 4};
-        case 2:
-            return {{middle, e1, c[2], e2}, 4};
-        default:
-            return {{e3, middle, e2, c[3]}, 4};
-    }
+    return {Region{{c[0], e0, middle, e3}, 4}, Region{{e0, c[1], e1, middle}, 4},
+            Region{{middle, e1, c[2], e2}, 4}, Region{{e3, middle, e2, c[3]}, 4}};
+}
+
+Region childRegion(const Surface& surface, std::uint32_t patch, const Region& region, unsigned child) {
+    return childRegions(surface, patch, region)[child];
 }
 
 Region regionOf(const Surface& surface, std::uint32_t patch, Path path) {
@@ -96,8 +84,9 @@ RegionPoint mapToRegion(const Region& region, const Vec2d& st) {
 unsigned childAt(const Surface& surface, std::uint32_t patch, const Region& region, const Vec2d& uv) {
     unsigned best = 0;
     double bestInside = -std::numeric_limits<double>::infinity();
+    const std::array<Region, 4> children = childRegions(surface, patch, region);
     for (unsigned child = 0; child < 4; ++child) {
-        const double inside = insideness(childRegion(surface, patch, region, child), uv);
+        const double inside = insideness(children[child], uv);
         if (inside > bestInside) {
             bestInside = inside;
             best = child;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -33,6 +34,9 @@ Region wholePatch(PatchDomain domain);
 /// Quarter `child` (0..3) of a region. Quads: child k keeps corner k. Triangles: children 0..2 keep corner k,
 /// 3 is the middle. Corner order and orientation are kept.
 Region childRegion(const Surface& surface, std::uint32_t patch, const Region& region, unsigned child);
+
+/// All four quarters, for the price of one.
+std::array<Region, 4> childRegions(const Surface& surface, std::uint32_t patch, const Region& region);
 
 /// The region that a path names, by descending from the whole patch.
 Region regionOf(const Surface& surface, std::uint32_t patch, Path path);
