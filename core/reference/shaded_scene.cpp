@@ -1,0 +1,123 @@
+#include "core/reference/shaded_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/base/photometry.h"
+#include "core/surface/region.h"
+
+namespace fluxwalk::reference {
+
+namespace {
+
+using base::kPi;
+
+// Uniform point of a patch's parameter domain, for two numbers in [0, 1).
+Vec2d domainPoint(surface::PatchDomain domain, const Vec2d& random) {
+    if (domain == surface::PatchDomain::quad) {
+        return random;
+    }
+    return random.x + random.y <= 1.0 ? random : Vec2d(1.0) - random;
+}
+
+double domainArea(surface::PatchDomain domain) {
+    return domain == surface::PatchDomain::quad ? 1.0 : 0.5;
+}
+
+bool isTextured(const scene::Material& material) {
+    return material.reflectanceTexture.isSet() || material.emissionTexture.isSet();
+}
+
+}  // namespace
+
+ShadedScene::ShadedScene(const scene::Scene& scene, const rays::RayScene& rays)
+    : scene_(scene), rays_(rays), textures_(scene), power_(scene.objects.size()) {
+    double cumulative = 0.0;
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        const scene::Object& object = scene.objects[i];
+        const scene::Material& material = scene.materials[object.material];
+        if (!material.isEmissive()) {
+            continue;
+        }
+        for (std::uint32_t patch = 0; patch < object.surface->patchCount(); ++patch) {
+            const surface::Region whole = surface::wholePatch(object.surface->domain(patch));
+            Rgb emission = material.emission;
+            if (material.emissionTexture.isSet()) {
+                // Some share stays with the dark parts: a texel that the mean overlooks can still be drawn.
+                emission = 0.95f * scene::regionMaterial(scene, textures_, object, patch, whole).emission +
+                           0.05f * emission;
+            }
+            const double sides = material.doubleSided ? 2.0 : 1.0;
+            const double power =
+                sides * object.surface->area(patch, whole) * static_cast<double>(base::channelMean(emission));
+            cumulative += power;
+            emitters_.push_back({i, patch, cumulative});
+            power_[i].push_back(power);
+        }
+    }
+}
+
+SidePoint ShadedScene::at(std::uint32_t objectIndex, std::uint32_t patch, const Vec2d& uv, bool back) const {
+    const scene::Object& object = scene_.objects[objectIndex];
+    const scene::Material& material = scene_.materials[object.material];
+    const surface::SurfacePoint point = object.surface->evaluate(patch, uv);
+    SidePoint side;
+    side.object = objectIndex;
+    side.patch = patch;
+    side.back = back;
+    side.position = point.position;
+    side.normal = back ? -point.normal : point.normal;
+    side.measure = point.jacobian * domainArea(object.surface->domain(patch));
+    side.reflectance = material.reflectance;
+    side.emission = material.emission;
+    if (isTextured(material)) {
+        const scene::RegionMaterial here = scene::pointMaterial(scene_, textures_, object, patch, uv);
+        side.reflectance = here.reflectance;
+        side.emission = here.emission;
+    }
+    if (back && !material.doubleSided) {
+        side.emission = Rgb(0.0f);
+    }
+    return side;
+}
+
+std::optional<SidePoint> ShadedScene::closest(const rays::Ray& ray) const {
+    const std::optional<rays::Hit> hit = rays_.closest(ray);
+    if (!hit) {
+        return std::nullopt;
+    }
+    const Vec3d position = Vec3d(ray.origin) + static_cast<double>(hit->t) * Vec3d(ray.direction);
+    const std::uint32_t object = base::index(hit->object);
+    return at(object, hit->patch, scene_.objects[object].surface->locate(hit->patch, position), hit->back);
+}
+
+SidePoint ShadedScene::sampleEmitter(base::RandomStream& random) const {
+    FLUXWALK_CHECK(hasEmissivePatches());
+    const double choice = random.next() * emitters_.back().cumulative;
+    const auto found = std::upper_bound(emitters_.begin(), emitters_.end(), choice,
+                                        [](double value, const Emitter& e) { return value < e.cumulative; });
+    const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
+    const surface::Surface& surface = *scene_.objects[emitter.object].surface;
+    const surface::PatchDomain domain = surface.domain(emitter.patch);
+    return at(emitter.object, emitter.patch, domainPoint(domain, random.next2()), false);
+}
+
+double ShadedScene::emitterProbability(std::uint32_t object, std::uint32_t patch) const {
+    return power_[object].empty() ? 0.0 : power_[object][patch] / emitters_.back().cumulative;
+}
+
+Vec3d cosineDirection(const Vec3d& normal, const Vec2d& random) {
+    // Branchless frame (Duff et al. 2017).
+    const double sign = std::copysign(1.0, normal.z);
+    const double a = -1.0 / (sign + normal.z);
+    const double b = normal.x * normal.y * a;
+    const Vec3d tangent(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x);
+    const Vec3d bitangent(b, sign + normal.y * normal.y * a, -normal.y);
+    const double radius = std::sqrt(random.x);
+    const double phi = 2.0 * kPi * random.y;
+    return radius * std::cos(phi) * tangent + radius * std::sin(phi) * bitangent +
+           std::sqrt(std::max(0.0, 1.0 - random.x)) * normal;
+}
+
+}  // namespace fluxwalk::reference
