@@ -42,7 +42,7 @@ class RandomStream {
 
 /// i-th point of the R2 sequence (M. Roberts 2018: the plastic number), shifted by `shift` modulo 1.
 inline Vec2d r2Point(std::uint64_t i, const Vec2d& shift) {
-    const double n = static_cast<double>(i + 1);
+    const auto n = static_cast<double>(i + 1);
     const double x = shift.x + n * 0.7548776662466927;
     const double y = shift.y + n * 0.5698402909980532;
     return {x - static_cast<double>(static_cast<std::int64_t>(x)),

@@ -14,10 +14,11 @@ namespace fluxwalk::cli {
 /// Exit codes, documented in --help.
 enum class ExitCode : int {
     success = 0,
-    bug = 1,         ///< an error of the program itself
-    usage = 2,       ///< an option or value makes no sense
-    badInput = 3,    ///< a file could not be read or understood
-    cannotWrite = 4  ///< a result could not be written
+    bug = 1,           ///< an error of the program itself
+    usage = 2,         ///< an option or value makes no sense
+    badInput = 3,      ///< a file could not be read or understood
+    cannotWrite = 4,   ///< a result could not be written
+    interrupted = 130  ///< stopped by Ctrl-C; what was solved by then has been written
 };
 
 struct Command {
@@ -31,7 +32,8 @@ struct Command {
 /// solve, measure, info.
 std::vector<Command> coreCommands();
 
-/// Parses and runs; catches what is thrown and prints one line. `commands[0]` is run when none is named.
+/// Parses and runs; catches what is thrown and prints one line. `commands[0]` is run when the first word that
+/// is no option names no command.
 int runCommandLine(int argc, const char* const* argv, const std::vector<Command>& commands);
 
 }  // namespace fluxwalk::cli

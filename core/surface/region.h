@@ -24,8 +24,9 @@ constexpr Path parentPath(Path path) {
 constexpr unsigned pathLevel(Path path) {
     return (static_cast<unsigned>(std::bit_width(path)) - 1) / 2;
 }
-/// Child index taken at `level` (0 is the first split).
+/// Child index taken at `level` (0 is the first split), which must be below pathLevel(path).
 constexpr unsigned pathStep(Path path, unsigned level) {
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the analyzer does not know bit_width
     return static_cast<unsigned>(path >> (2 * (pathLevel(path) - 1 - level))) & 3u;
 }
 

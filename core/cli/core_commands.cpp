@@ -1,0 +1,9 @@
+#include "core/cli/core_commands.h"
+
+namespace fluxwalk::cli {
+
+std::vector<Command> coreCommands() {
+    return {solveCommand(), measureCommand(), infoCommand()};
+}
+
+}  // namespace fluxwalk::cli

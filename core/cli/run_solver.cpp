@@ -1,0 +1,43 @@
+#include "core/cli/run_solver.h"
+
+#include "core/cli/interrupt.h"
+#include "core/cli/output.h"
+#include "core/cli/progress.h"
+#include "core/scene/texture.h"
+
+namespace fluxwalk::cli {
+
+ExitCode Solved::exitCode() const {
+    return report.outcome == solve::Outcome::stopped ? ExitCode::interrupted : ExitCode::success;
+}
+
+Solved runSolver(const std::string& command, const SceneArguments& sceneArguments,
+                 const SolverArguments& solverArguments, const OutputArguments& output) {
+    Solved solved;
+    solved.scene = std::make_shared<const scene::Scene>(loadScene(sceneArguments));
+    if (!output.quiet) {
+        for (const std::string& warning : solved.scene->warnings) {
+            printWarning(warning);
+        }
+    }
+    solved.report.command = command;
+    solved.report.scene = scene::describeScene(*solved.scene, scene::TextureSet(*solved.scene));
+    solved.report.arguments = solverArguments;
+    solved.solver =
+        std::make_unique<solve::Solver>(solved.scene, solverArguments.options, solverArguments.threads);
+
+    const Interrupt interrupt;
+    Progress progress(stderr, chooseStyle(stderr, output.quiet));
+    solve::Callbacks callbacks;
+    callbacks.shouldStop = [] { return Interrupt::isRequested(); };
+    callbacks.progress = [&](double fraction, const char* stage) { progress.update(fraction, stage); };
+    solved.report.outcome = solved.solver->solve(callbacks);
+    return solved;
+}
+
+void completeReport(Solved& solved, std::vector<std::string> outputs) {
+    solved.report.statistics = solved.solver->statistics();
+    solved.report.outputs = std::move(outputs);
+}
+
+}  // namespace fluxwalk::cli

@@ -1,0 +1,62 @@
+#include <filesystem>
+#include <memory>
+
+#include <CLI/App.hpp>
+
+#include "core/cli/core_commands.h"
+#include "core/cli/output.h"
+#include "core/cli/run_solver.h"
+#include "core/io/lit_gltf.h"
+
+namespace fluxwalk::cli {
+
+namespace {
+
+struct SolveArguments {
+    SceneArguments scene;
+    SolverArguments solver;
+    OutputArguments output;
+    std::filesystem::path lit;
+};
+
+void requireOutputs(const SolveArguments& arguments) {
+    if (arguments.lit.extension() != ".glb") {
+        throw base::UsageError("--output: '" + arguments.lit.string() + "' does not end in .glb");
+    }
+    requireWritable(arguments.lit);
+    if (!arguments.output.report.empty()) {
+        requireWritable(arguments.output.report);
+    }
+}
+
+ExitCode runSolve(const SolveArguments& arguments) {
+    requireOutputs(arguments);
+    Solved solved = runSolver("solve", arguments.scene, arguments.solver, arguments.output);
+    const scene::LitMeshes meshes = solved.solver->litMeshes();
+    writeOutput([&] {
+        io::writeLitGltf(arguments.lit, *solved.scene, meshes, {io::chooseExposure(*solved.scene, meshes)});
+    });
+    completeReport(solved, {arguments.lit.string()});
+    deliver(solved.report, arguments.output);
+    return solved.exitCode();
+}
+
+}  // namespace
+
+Command solveCommand() {
+    return {"solve", "Solve a scene and write the lit mesh, which opens in any glTF viewer.",
+            [](CLI::App& app) {
+                const auto arguments = std::make_shared<SolveArguments>();
+                addSceneOptions(app, arguments->scene);
+                app.add_option("-o,--output", arguments->lit,
+                               "Lit mesh: light in the vertex colours, true lux in _IRRADIANCE.")
+                    ->required()
+                    ->type_name("OUT.glb")
+                    ->group("Output");
+                addSolverOptions(app, arguments->solver);
+                addOutputOptions(app, arguments->output);
+                return [arguments] { return runSolve(*arguments); };
+            }};
+}
+
+}  // namespace fluxwalk::cli

@@ -1,0 +1,80 @@
+#include "core/cli/solver_arguments.h"
+
+#include <string>
+
+#include <CLI/App.hpp>
+#include <fmt/format.h>
+
+#include "core/cli/values.h"
+#include "core/solve/options_table.h"
+
+namespace fluxwalk::cli {
+
+namespace {
+
+constexpr unsigned kMostThreads = 1024;
+
+std::string typeName(const solve::OptionInfo& option) {
+    switch (option.kind) {
+        case solve::OptionKind::fraction:
+            return "PERCENT%";
+        case solve::OptionKind::choice:
+            return "NAME";
+        case solve::OptionKind::integer:
+            return "N";
+        default:
+            break;
+    }
+    std::string name(option.unit);
+    for (char& c : name) {
+        c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    }
+    return name;
+}
+
+std::string describe(const solve::OptionInfo& option) {
+    return fmt::format("{} Default {}; {}.", option.explanation,
+                       solve::formatOption(option, option.defaultValue()), solve::describeRange(option));
+}
+
+}  // namespace
+
+void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
+    for (const solve::OptionInfo& option : solve::optionsTable()) {
+        const std::string name = "--" + std::string(option.name);
+        if (option.kind == solve::OptionKind::flag) {
+            app.add_flag_callback(
+                   name, [&arguments, &option] { option.set(arguments.options, 1.0); },
+                   std::string(option.explanation) + " Off by default.")
+                ->group("Solver");
+            continue;
+        }
+        app.add_option_function<std::string>(
+               name,
+               [&arguments, &option](const std::string& text) {
+                   option.set(arguments.options, solve::parseOption(option, text));
+               },
+               describe(option))
+            ->type_name(typeName(option))
+            ->group("Solver");
+    }
+    app.add_option_function<std::string>(
+           "--threads",
+           [&arguments](const std::string& text) {
+               arguments.threads = parseCountOption("--threads", text, 0, kMostThreads);
+           },
+           "Threads to work on; the result does not depend on it. Default 0: all that the machine has.")
+        ->type_name("N")
+        ->group("Solver");
+}
+
+void addOutputOptions(CLI::App& app, OutputArguments& arguments) {
+    app.add_option("--report", arguments.report,
+                   "Write counters, stage times, audit and achieved error to this file as JSON.")
+        ->type_name("FILE.json")
+        ->group("Output");
+    app.add_flag("--json", arguments.json, "Print the report as JSON on standard output.")->group("Output");
+    app.add_flag("--quiet", arguments.quiet, "Print errors only.")->group("Output");
+}
+
+}  // namespace fluxwalk::cli

@@ -1,0 +1,206 @@
+#include "core/solve/options_table.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace fluxwalk::solve {
+
+namespace {
+
+constexpr double kLargestInteger = 0x1.0p53;
+
+std::vector<OptionInfo> makeTable() {
+    std::vector<OptionInfo> table;
+    table.push_back({.name = "error",
+                     .kind = OptionKind::fraction,
+                     .unit = "%",
+                     .minimum = 1e-4,
+                     .maximum = 1.0,
+                     .explanation =
+                         "Requested error: root mean square of E - E* over all lit sides, as a part of the "
+                         "mean illuminance. Halving it takes several times the work.",
+                     .get = [](const Options& o) { return o.error; },
+                     .set = [](Options& o, double value) { o.error = value; }});
+    table.push_back({.name = "oracle",
+                     .kind = OptionKind::choice,
+                     .minimum = 0.0,
+                     .maximum = 2.0,
+                     .choices = {"bounded", "bfa", "bf"},
+                     .explanation =
+                         "What decides that a link is fine enough: 'bounded' weighs the spread of kernel, "
+                         "visibility and radiosity by power; 'bfa' the transferred power; 'bf' the "
+                         "transferred illuminance.",
+                     .get = [](const Options& o) { return static_cast<double>(o.oracle); },
+                     .set = [](Options& o, double value) { o.oracle = static_cast<OracleKind>(value); }});
+    table.push_back({.name = "threshold",
+                     .unit = "lux",
+                     .minimum = 0.0,
+                     .maximum = 1e9,
+                     .zero = "automatic",
+                     .explanation =
+                         "Largest error of one link, fixed. By default a closed loop lowers it until the "
+                         "requested error is reached.",
+                     .get = [](const Options& o) { return o.threshold; },
+                     .set = [](Options& o, double value) { o.threshold = value; }});
+    table.push_back(
+        {.name = "min-area",
+         .unit = "m2",
+         .minimum = 0.0,
+         .maximum = 1e9,
+         .zero = "automatic",
+         .explanation = "Elements below this area are not split. By default 1e-7 of the scene's area.",
+         .get = [](const Options& o) { return o.minArea; },
+         .set = [](Options& o, double value) { o.minArea = value; }});
+    table.push_back({.name = "row-scaling",
+                     .kind = OptionKind::flag,
+                     .maximum = 1.0,
+                     .explanation =
+                         "In closed scenes, scale the coefficients symmetrically until every row sums to 1, "
+                         "by 5 % at most. The audit counts what it changes.",
+                     .get = [](const Options& o) { return o.rowScaling ? 1.0 : 0.0; },
+                     .set = [](Options& o, double value) { o.rowScaling = value != 0.0; }});
+    table.push_back(
+        {.name = "seed",
+         .kind = OptionKind::integer,
+         .minimum = 0.0,
+         .maximum = kLargestInteger,
+         .explanation = "Seed of all random numbers: same seed, same result, on any number of threads.",
+         .get = [](const Options& o) { return static_cast<double>(o.seed); },
+         .set = [](Options& o, double value) { o.seed = static_cast<std::uint64_t>(value); }});
+    table.push_back({.name = "time-limit",
+                     .unit = "s",
+                     .minimum = 0.0,
+                     .maximum = 1e9,
+                     .zero = "none",
+                     .explanation = "Stop after this time and keep what is solved.",
+                     .get = [](const Options& o) { return o.timeLimit; },
+                     .set = [](Options& o, double value) { o.timeLimit = value; }});
+    return table;
+}
+
+/// A finite number that fills the whole text; std::from_chars knows no locale.
+std::optional<double> parseNumber(std::string_view text) {
+    double value = 0.0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+[[noreturn]] void rejectValue(const OptionInfo& option, std::string_view text, std::string_view hint = {}) {
+    throw base::UsageError(
+        fmt::format("--{}: '{}' is not {}{}", option.name, text, describeRange(option), hint));
+}
+
+double parseChoice(const OptionInfo& option, std::string_view text) {
+    for (std::size_t i = 0; i < option.choices.size(); ++i) {
+        if (option.choices[i] == text) {
+            return static_cast<double>(i);
+        }
+    }
+    rejectValue(option, text);
+}
+
+double parseFraction(const OptionInfo& option, std::string_view text) {
+    std::string_view digits = text;
+    const bool isPercent = digits.ends_with('%');
+    if (isPercent) {
+        digits.remove_suffix(1);
+        while (digits.ends_with(' ')) {
+            digits.remove_suffix(1);
+        }
+    }
+    const std::optional<double> number = parseNumber(digits);
+    if (!number) {
+        rejectValue(option, text);
+    }
+    const double value = isPercent ? *number / 100.0 : *number;
+    if (value >= option.minimum && value <= option.maximum) {
+        return value;
+    }
+    if (!isPercent && value > option.maximum && value / 100.0 <= option.maximum) {
+        rejectValue(option, text, fmt::format("; did you mean {}%?", digits));
+    }
+    rejectValue(option, text);
+}
+
+}  // namespace
+
+std::span<const OptionInfo> optionsTable() {
+    static const std::vector<OptionInfo> kTable = makeTable();
+    return kTable;
+}
+
+const OptionInfo* findOption(std::string_view name) {
+    for (const OptionInfo& option : optionsTable()) {
+        if (option.name == name) {
+            return &option;
+        }
+    }
+    return nullptr;
+}
+
+double parseOption(const OptionInfo& option, std::string_view text) {
+    if (option.kind == OptionKind::choice) {
+        return parseChoice(option, text);
+    }
+    if (option.kind == OptionKind::fraction) {
+        return parseFraction(option, text);
+    }
+    const std::optional<double> value = parseNumber(text);
+    const bool isWhole = value && *value == std::floor(*value);
+    if (!value || *value < option.minimum || *value > option.maximum ||
+        (option.kind != OptionKind::quantity && !isWhole)) {
+        rejectValue(option, text);
+    }
+    return *value;
+}
+
+std::string formatOption(const OptionInfo& option, double value) {
+    switch (option.kind) {
+        case OptionKind::fraction:
+            return fmt::format("{:g} %", value * 100.0);
+        case OptionKind::choice:
+            return std::string(option.choices[static_cast<std::size_t>(value)]);
+        case OptionKind::flag:
+            return value != 0.0 ? "on" : "off";
+        case OptionKind::integer:
+            return fmt::format("{:.0f}", value);
+        case OptionKind::quantity:
+            break;
+    }
+    if (value == 0.0 && !option.zero.empty()) {
+        return std::string(option.zero);
+    }
+    return option.unit.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, option.unit);
+}
+
+std::string describeRange(const OptionInfo& option) {
+    switch (option.kind) {
+        case OptionKind::flag:
+            return {};
+        case OptionKind::choice: {
+            std::string text;
+            for (std::size_t i = 0; i < option.choices.size(); ++i) {
+                text += i == 0 ? "" : i + 1 == option.choices.size() ? " or " : ", ";
+                text += option.choices[i];
+            }
+            return text;
+        }
+        case OptionKind::integer:
+            return fmt::format("a whole number from {:.0f} to {:.0f}", option.minimum, option.maximum);
+        case OptionKind::fraction:
+            return fmt::format("{:g} % to {:g} %", option.minimum * 100.0, option.maximum * 100.0);
+        case OptionKind::quantity:
+            break;
+    }
+    return fmt::format("{:g} to {:g} {}", option.minimum, option.maximum, option.unit);
+}
+
+}  // namespace fluxwalk::solve
