@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/base/photometry.h"
 
 namespace fluxwalk::scene {
 
@@ -17,13 +18,11 @@ constexpr double kSamplesPerSide = 4.0;
 /// Longest side of the grid of samples where a region is stretched in the texture.
 constexpr double kMaxSamplesAlong = 16.0;
 
-/// Linear light of an sRGB byte (IEC 61966-2-1).
 const std::array<float, 256>& linearOfByte() {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> t{};
         for (std::size_t i = 0; i < t.size(); ++i) {
-            const double v = static_cast<double>(i) / 255.0;
-            t[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+            t[i] = static_cast<float>(base::linearFromSrgb(static_cast<double>(i) / 255.0));
         }
         return t;
     }();
