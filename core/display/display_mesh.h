@@ -19,6 +19,8 @@ struct Leaf {
     bool back = false;
     surface::Path path = surface::kRootPath;
     base::Rgb irradiance{0.0f};  ///< lux, each channel
+    /// Part of its area outside other solids; values count in proportion, those of 0 not at all.
+    float exposed = 1.0f;
 };
 
 struct MeshOptions {

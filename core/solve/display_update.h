@@ -19,7 +19,7 @@ class DisplayUpdate {
   private:
     Problem& problem_;
     std::vector<std::vector<NodeId>> patchesOf_;  ///< by object
-    std::vector<display::PatchTopology> topologies_;
+    std::vector<std::unique_ptr<display::PatchTopology>> topologies_;
     std::vector<display::DisplayMeshes> meshes_;
     std::vector<std::uint64_t> digests_;  ///< of each object's leaves and values
 };

@@ -1,0 +1,82 @@
+#include "core/solve/display_update.h"
+
+#include <bit>
+
+#include "core/base/random.h"
+#include "core/display/interpolate.h"
+
+namespace fluxwalk::solve {
+
+DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
+    const std::size_t objects = problem.scene->objects.size();
+    patchesOf_.resize(objects);
+    meshes_.resize(objects);
+    digests_.assign(objects, 0);
+    for (const NodeId id : problem.hierarchy.patches()) {
+        patchesOf_[problem.hierarchy.name(id).object].push_back(id);
+    }
+    topologies_.resize(objects);
+    problem.executor.forRange(objects, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t o = begin; o < end; ++o) {
+            if (!patchesOf_[o].empty()) {
+                topologies_[o] = std::make_unique<display::PatchTopology>(*problem.scene->objects[o].surface);
+            }
+        }
+    });
+}
+
+scene::LitMeshes DisplayUpdate::refresh() {
+    const StageTimer timer(problem_.statistics.times.display);
+    const hierarchy::Hierarchy& h = problem_.hierarchy;
+    problem_.executor.forRange(patchesOf_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        std::vector<display::Leaf> leaves;
+        std::vector<NodeId> stack;
+        for (std::size_t o = begin; o < end; ++o) {
+            leaves.clear();
+            std::uint64_t digest = 1;
+            for (const NodeId patch : patchesOf_[o]) {
+                stack.push_back(patch);
+                while (!stack.empty()) {
+                    const NodeId id = stack.back();
+                    stack.pop_back();
+                    if (!h.isLeaf(id)) {
+                        for (unsigned c = 4; c-- > 0;) {
+                            stack.push_back(h.child(id, c));
+                        }
+                        continue;
+                    }
+                    const hierarchy::ElementName name = h.name(id);
+                    const Rgb e = h.light(id).irradiance;
+                    leaves.push_back({name.patch, name.back, name.path, e, h.shape(id).exposed});
+                    digest = base::mix(digest ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
+                                                 std::bit_cast<std::uint32_t>(e.g))) +
+                             std::bit_cast<std::uint32_t>(e.b) + name.path;
+                }
+            }
+            if (leaves.empty() || digest == digests_[o]) {
+                continue;
+            }
+            digests_[o] = digest;
+            meshes_[o] = display::buildDisplayMeshes(*topologies_[o], static_cast<std::uint32_t>(o),
+                                                     problem_.scene->objects[o].material, leaves, {});
+        }
+    });
+    scene::LitMeshes all;
+    for (const display::DisplayMeshes& object : meshes_) {
+        all.insert(all.end(), object.meshes.begin(), object.meshes.end());
+    }
+    return all;
+}
+
+std::vector<Rgb> DisplayUpdate::valuesAt(const std::vector<Probe>& probes) {
+    refresh();
+    std::vector<Rgb> values;
+    values.reserve(probes.size());
+    for (const Probe& p : probes) {
+        const display::DisplayLookup lookup(*problem_.scene->objects[p.object].surface, meshes_[p.object]);
+        values.push_back(lookup.irradiance(p.patch, p.back, p.uv).value_or(Rgb(0.0f)));
+    }
+    return values;
+}
+
+}  // namespace fluxwalk::solve
