@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <cstring>
 
-/// Eight doubles at once, through the compiler's vector extension: the same IEEE operations on any instruction set, so the same
-/// bits. Functions are forced inline, so that they take on the instruction set of the kernel that uses them.
+/// Eight doubles at once, through the compiler's vector extension: the same IEEE operations on any
+/// instruction set, so the same bits. Functions are forced inline, so that they take on the instruction set
+/// of the kernel that uses them.
 namespace fluxwalk::base {
 
 using Lanes = double __attribute__((vector_size(64)));
@@ -13,9 +14,15 @@ inline constexpr int kLanes = 8;
 
 #define FLUXWALK_INLINE [[gnu::always_inline]] inline
 
-FLUXWALK_INLINE Lanes splat(double v) { return Lanes{v, v, v, v, v, v, v, v}; }
-FLUXWALK_INLINE Lanes maxLanes(Lanes a, Lanes b) { return a > b ? a : b; }
-FLUXWALK_INLINE Lanes minLanes(Lanes a, Lanes b) { return a < b ? a : b; }
+FLUXWALK_INLINE Lanes splat(double v) {
+    return Lanes{v, v, v, v, v, v, v, v};
+}
+FLUXWALK_INLINE Lanes maxLanes(Lanes a, Lanes b) {
+    return a > b ? a : b;
+}
+FLUXWALK_INLINE Lanes minLanes(Lanes a, Lanes b) {
+    return a < b ? a : b;
+}
 
 FLUXWALK_INLINE Lanes sqrtLanes(Lanes v) {
     alignas(64) double t[kLanes];
@@ -35,7 +42,8 @@ FLUXWALK_INLINE bool anyLane(LaneMask m) {
     return any != 0;
 }
 
-/// Angle in [0, pi] of the direction (cosine, sine), sine >= 0; relative error below 1e-11, exact limit for small angles; 0 for (0, 0).
+/// Angle in [0, pi] of the direction (cosine, sine), sine >= 0; relative error below 1e-11, exact limit for
+/// small angles; 0 for (0, 0).
 FLUXWALK_INLINE Lanes angleLanes(Lanes sine, Lanes cosine) {
     const Lanes c = cosine < 0.0 ? -cosine : cosine;
     const LaneMask steep = sine > c;
@@ -70,8 +78,12 @@ struct Lanes3 {
     Lanes z;
 };
 
-FLUXWALK_INLINE Lanes3 operator-(const Lanes3& a, const Lanes3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-FLUXWALK_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+FLUXWALK_INLINE Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+FLUXWALK_INLINE Lanes dot(const Lanes3& a, const Lanes3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 FLUXWALK_INLINE Lanes3 cross(const Lanes3& a, const Lanes3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

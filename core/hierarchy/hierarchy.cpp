@@ -16,9 +16,10 @@ bool isLuminaire(const scene::Scene& scene, std::uint32_t object) {
     return scene.materials[scene.objects[object].material].isEmissive();
 }
 
-// Whether another patch's box reaches into the inside of this box (shrunk, so that walls that meet at an edge do not count).
-bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::PatchRef> items, const base::Box& box,
-                  double margin, std::uint32_t object, std::uint32_t patch) {
+// Whether another patch's box reaches into the inside of this box (shrunk, so that walls that meet at an edge
+// do not count).
+bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::PatchRef> items,
+                  const base::Box& box, double margin, std::uint32_t object, std::uint32_t patch) {
     base::Box inner = box;
     for (int i = 0; i < 3; ++i) {
         // Flat boxes grow along their thin axis and shrink along the others.
@@ -34,8 +35,8 @@ bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::Patc
         const std::uint32_t at = stack.back();
         stack.pop_back();
         const rays::SpatialTree::Node& node = tree.nodes()[at];
-        if (node.lower.x > upper.x || node.lower.y > upper.y || node.lower.z > upper.z || node.upper.x < lower.x ||
-            node.upper.y < lower.y || node.upper.z < lower.z) {
+        if (node.lower.x > upper.x || node.lower.y > upper.y || node.lower.z > upper.z ||
+            node.upper.x < lower.x || node.upper.y < lower.y || node.upper.z < lower.z) {
             continue;
         }
         if (!node.isLeaf()) {
@@ -125,7 +126,8 @@ struct Sketch {
     }
 };
 
-Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes, const base::Executor& executor) {
+Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes,
+                        const base::Executor& executor) {
     const scene::Scene& scene = h.scene();
     Sketch sketch;
     std::vector<std::uint32_t> parts;
@@ -158,8 +160,8 @@ Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes, co
 }  // namespace
 
 std::size_t Hierarchy::bytesPerNode() {
-    return sizeof(NodeId) * 2 + sizeof(NodeKind) + sizeof(std::uint32_t) * 2 + sizeof(surface::Path) + sizeof(Shape) +
-           sizeof(Light) + 1;
+    return sizeof(NodeId) * 2 + sizeof(NodeKind) + sizeof(std::uint32_t) * 2 + sizeof(surface::Path) +
+           sizeof(Shape) + sizeof(Light) + 1;
 }
 
 Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
@@ -173,7 +175,8 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     const Blueprint plan = drawBlueprint(*this, shaftBoxes_, executor);
     resize(plan.nodes.size());
     patchNodes_.assign(shaftItems_.size(), {NodeId::none, NodeId::none});
-    // Top down, so that children are one block behind each other. The blueprint's indices become the node ids.
+    // Top down, so that children are one block behind each other. The blueprint's indices become the node
+    // ids.
     for (std::uint32_t i = 0; i < plan.nodes.size(); ++i) {
         const Blueprint::Node& from = plan.nodes[i];
         const NodeId id{i};
@@ -235,7 +238,8 @@ void Hierarchy::shapePatches(const base::Executor& executor) {
             const NodeId id = patches_[i];
             const ElementName at = name(id);
             const base::Box& box = shaftBoxes_[firstShaftItem_[at.object] + at.patch];
-            mayHide_[index(id)] = touchesOther(shaftTree_, shaftItems_, box, margin, at.object, at.patch) ? 1 : 0;
+            mayHide_[index(id)] =
+                touchesOther(shaftTree_, shaftItems_, box, margin, at.object, at.patch) ? 1 : 0;
             shapeElement(id, region(id));
         }
     });
@@ -280,10 +284,12 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
         shape.exposed = exposedFraction(shape.exposedCells);
     }
     const scene::Object& object = scene_->objects[at.object];
-    const scene::RegionMaterial material = scene::regionMaterial(*scene_, textures_, object, at.patch, region);
+    const scene::RegionMaterial material =
+        scene::regionMaterial(*scene_, textures_, object, at.patch, region);
     Light& light = light_[index(id)];
     light.reflectance = material.reflectance;
-    light.emission = at.back && !scene_->materials[object.material].doubleSided ? Rgb(0.0f) : material.emission;
+    light.emission =
+        at.back && !scene_->materials[object.material].doubleSided ? Rgb(0.0f) : material.emission;
     light.radiosity = light.emission + light.reflectance * light.irradiance;
 }
 
@@ -314,8 +320,9 @@ void Hierarchy::shapeClusters() {
             shape.cornerCount = 0;
             continue;
         }
-        const base::NormalCone cone = base::NormalCone::merge({Vec3d(a.axis), static_cast<double>(a.halfAngle)},
-                                                              {Vec3d(b.axis), static_cast<double>(b.halfAngle)});
+        const base::NormalCone cone =
+            base::NormalCone::merge({Vec3d(a.axis), static_cast<double>(a.halfAngle)},
+                                    {Vec3d(b.axis), static_cast<double>(b.halfAngle)});
         shape.axis = Vec3(cone.axis);
         shape.halfAngle = static_cast<float>(cone.halfAngle);
         // Smallest sphere about both spheres.
@@ -351,7 +358,9 @@ surface::Region Hierarchy::region(NodeId id) const {
     return surface::regionOf(surfaceOf(id), patchSide_[i] / 2, path_[i]);
 }
 
-const surface::Surface& Hierarchy::surfaceOf(NodeId id) const { return *scene_->objects[object_[index(id)]].surface; }
+const surface::Surface& Hierarchy::surfaceOf(NodeId id) const {
+    return *scene_->objects[object_[index(id)]].surface;
+}
 
 NodeId Hierarchy::patchNode(std::uint32_t object, std::uint32_t patch, bool back) const {
     return patchNodes_[firstShaftItem_[object] + patch][back ? 1 : 0];
@@ -363,8 +372,8 @@ bool Hierarchy::canSplit(NodeId id, double minArea) const {
         return true;
     }
     return kind_[i] == NodeKind::element &&
-           (firstChild_[i] != NodeId::none ||
-            (static_cast<double>(shape_[i].area) > minArea && surface::pathLevel(path_[i]) < surface::kMaxLevel));
+           (firstChild_[i] != NodeId::none || (static_cast<double>(shape_[i].area) > minArea &&
+                                               surface::pathLevel(path_[i]) < surface::kMaxLevel));
 }
 
 void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& executor) {
@@ -393,15 +402,16 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
                 light_[i].spread = 0.5f * light_[p].spread;
                 const surface::Region part = surface::childRegion(surface, patch, whole, c);
                 if (mayHide_[p] != 0) {
-                    const bool touches = touchesOther(shaftTree_, shaftItems_, surface.bounds(patch, part).box, margin,
-                                                      object_[i], patch);
+                    const bool touches = touchesOther(
+                        shaftTree_, shaftItems_, surface.bounds(patch, part).box, margin, object_[i], patch);
                     // What touches nothing is all outside or all inside, as its middle is.
                     mayHide_[i] = touches || shape_[p].exposedCells != 0xffff ? 1 : 0;
                 }
                 shapeElement(id, part);
                 sum += shape_[i].area;
             }
-            // Areas by quadrature differ by rounding: children take exactly their parent's area (ALGORITHMS 1.5, convention A).
+            // Areas by quadrature differ by rounding: children take exactly their parent's area
+            // (ALGORITHMS 1.5, convention A).
             const float scale = sum > 0.0f ? shape_[p].area / sum : 1.0f;
             for (unsigned c = 0; c < 4; ++c) {
                 shape_[first + 4 * k + c].area *= scale;

@@ -12,7 +12,8 @@
 #include "core/scene/texture.h"
 #include "core/surface/region.h"
 
-/// One tree over everything that exchanges light: clusters above patches, elements below, light sources without area beside.
+/// One tree over everything that exchanges light: clusters above patches, elements below, light sources
+/// without area beside.
 namespace fluxwalk::hierarchy {
 
 using base::NodeId;
@@ -32,12 +33,13 @@ struct ElementName {
 
 /// What transport asks of a node's shape.
 struct Shape {
-    Vec3 center{};             ///< of the bounding sphere
+    Vec3 center{};  ///< of the bounding sphere
     float radius = 0.0f;
-    Vec3 axis{0, 0, 1};        ///< of the cone of normals, towards the side that takes part
-    float halfAngle = 0.0f;    ///< radians
-    float area = 0.0f;         ///< true area in m2 (clusters: sum)
-    /// Part of the area outside other solids, as 4 x 4 cells of the element's region: bit 4 j + i is the cell with s in [i/4, (i+1)/4).
+    Vec3 axis{0, 0, 1};      ///< of the cone of normals, towards the side that takes part
+    float halfAngle = 0.0f;  ///< radians
+    float area = 0.0f;       ///< true area in m2 (clusters: sum)
+    /// Part of the area outside other solids, as 4 x 4 cells of the element's region: bit 4 j + i is the cell
+    /// with s in [i/4, (i+1)/4).
     std::uint16_t exposedCells = 0xffff;
     /// Part of the area that receives and sends: from the cells (leaves) or the children (area means).
     float exposed = 1.0f;
@@ -49,21 +51,21 @@ struct Shape {
     float exposedArea() const { return area * exposed; }
 };
 
-/// Light of a node. Elements: means over the exposed area. Light sources: `radiosity` is intensity (cd), illuminance of a directional
-/// light (lux) or the sky's illuminance on a free horizontal plane (lux).
+/// Light of a node. Elements: means over the exposed area. Light sources: `radiosity` is intensity (cd),
+/// illuminance of a directional light (lux) or the sky's illuminance on a free horizontal plane (lux).
 struct Light {
-    Rgb radiosity{0.0f};    ///< lm/m2
-    Rgb gathered{0.0f};     ///< irradiance through this node's own links, lux
-    Rgb irradiance{0.0f};   ///< with that of all ancestors (leaves) or pulled from the children, lux
+    Rgb radiosity{0.0f};   ///< lm/m2
+    Rgb irradiance{0.0f};  ///< mean over the exposed area, lux
     Rgb reflectance{0.0f};
-    Rgb emission{0.0f};     ///< lm/m2
-    float spread = 0.0f;    ///< half the range of the channel-mean radiosity within the node, lm/m2
+    Rgb emission{0.0f};   ///< lm/m2
+    float spread = 0.0f;  ///< half the range of the channel-mean radiosity within the node, lm/m2
 };
 
 class Hierarchy {
   public:
     /// Builds patches of the reached sides and the cluster tree above them.
-    Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor, std::uint64_t seed);
+    Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
+              std::uint64_t seed);
 
     std::size_t nodeCount() const { return parent_.size(); }
     std::size_t leafCount() const { return leafCount_; }
@@ -90,7 +92,8 @@ class Hierarchy {
     const Light& light(NodeId id) const { return light_[index(id)]; }
     Light& light(NodeId id) { return light_[index(id)]; }
 
-    /// Nodes at the top of the elements (one for each patch and reached side), in depth-first order of the clusters.
+    /// Nodes at the top of the elements (one for each patch and reached side), in depth-first order of the
+    /// clusters.
     std::span<const NodeId> patches() const { return patches_; }
     /// Light sources without area, and the sky.
     std::span<const NodeId> sources() const { return sources_; }
@@ -99,7 +102,8 @@ class Hierarchy {
 
     /// Whether a leaf may be quartered: an element larger than `minArea` (m2) above the depth limit.
     bool canSplit(NodeId id, double minArea) const;
-    /// Quarters leaves. Children take over their parent's irradiance. Ids must be distinct leaves; the order fixes the new ids.
+    /// Quarters leaves. Children take over their parent's irradiance. Ids must be distinct leaves; the order
+    /// fixes the new ids.
     void split(std::span<const NodeId> leaves, const base::Executor& executor);
 
     const ReachedSides& reached() const { return reached_; }
@@ -141,7 +145,8 @@ class Hierarchy {
     std::vector<surface::Path> path_;
     std::vector<Shape> shape_;
     std::vector<Light> light_;
-    std::vector<std::uint8_t> mayHide_;  ///< other geometry touches this element: its exposure must be sampled
+    std::vector<std::uint8_t>
+        mayHide_;  ///< other geometry touches this element: its exposure must be sampled
 
     std::vector<NodeId> patches_;
     std::vector<NodeId> sources_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/ids.h"
+#include "core/base/vec.h"
 
 namespace fluxwalk::hierarchy {
 
@@ -27,17 +28,37 @@ class UncertaintyCode {
     }
 };
 
-/// Transport between an unordered pair of nodes: one symmetric coefficient serves both directions, so reciprocity is exact.
-/// H_a += coupling * visibility * x_b B_b / A_a and the other way round, with x the exposed fraction of a node. Where `b` is a light
-/// source without area, coupling is A_a times the mean over `a` of cos / r2 (or cos, or the view of the sky) and there is no way back.
+/// Relative gradient of a kernel over an element in one byte for each direction: steps of 3 / 127.
+struct GradientCode {
+    std::int8_t s = 0;
+    std::int8_t t = 0;
+
+    static GradientCode encode(const base::Vec2& gradient) {
+        const auto code = [](float g) {
+            return static_cast<std::int8_t>(std::lround(std::clamp(g, -3.0f, 3.0f) * (127.0f / 3.0f)));
+        };
+        return {code(gradient.x), code(gradient.y)};
+    }
+    base::Vec2 decode() const {
+        return base::Vec2(static_cast<float>(s), static_cast<float>(t)) * (3.0f / 127.0f);
+    }
+};
+
+/// Transport between an unordered pair of nodes: one symmetric coefficient serves both directions, so
+/// reciprocity is exact. H_a += coupling * visibility * x_b B_b / A_a and the other way round, with x the
+/// exposed fraction of a node. Where `b` is a light source without area, coupling is A_a times the mean over
+/// `a` of cos / r2 (or cos, or the view of the sky) and there is no way back.
 struct Link {
     NodeId a{};
     NodeId b{};
     float coupling = 0.0f;  ///< unoccluded g = A_a F(a<-b) in m2, over the whole of both
     /// Visibility in 1/32767 steps; the top bit marks it as certain (an empty shaft).
     std::uint16_t visibilityBits = 0;
-    std::uint8_t spreadA = 0;  ///< UncertaintyCode: deviation of F(x<-b) over a from its mean, relative
+    std::uint8_t spreadA =
+        0;  ///< UncertaintyCode: deviation of F(x<-b) over a from a linear function, relative
     std::uint8_t spreadB = 0;
+    GradientCode gradientA;  ///< of F(x<-b) over a: receivers are linear, sources constant (ALGORITHMS 2.2)
+    GradientCode gradientB;
 
     float visibility() const { return static_cast<float>(visibilityBits & 0x7fffu) * (1.0f / 32767.0f); }
     bool isOpen() const { return (visibilityBits & 0x8000u) != 0; }
@@ -48,7 +69,7 @@ struct Link {
     /// Coupling of the light that arrives.
     float transfer() const { return coupling * visibility(); }
 };
-static_assert(sizeof(Link) == 16);
+static_assert(sizeof(Link) == 20);
 
 /// Links and, for each node, those that end at it.
 class LinkStore {

@@ -12,7 +12,8 @@ using base::Vec3d;
 constexpr double kCapture = 1e-3;
 
 // Nearest side that faces along the sensor's normal, within the capture distance before or behind it.
-std::optional<solve::GatherPoint> capture(const solve::Problem& problem, const scene::Sensor& sensor, double reach) {
+std::optional<solve::GatherPoint> capture(const solve::Problem& problem, const scene::Sensor& sensor,
+                                          double reach) {
     // From above, looking back along the normal: what is met first is the side that the sensor lies on.
     const Vec3d from = sensor.position + reach * sensor.normal;
     const rays::Ray ray{base::Vec3(from), 0.0f, base::Vec3(-sensor.normal), static_cast<float>(2.0 * reach)};

@@ -1,10 +1,10 @@
 #include "core/rays/spatial_tree.h"
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <cmath>
 #include <new>
+
+#include <embree3/rtcore.h>
 
 #include "core/base/check.h"
 

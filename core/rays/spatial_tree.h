@@ -9,7 +9,8 @@
 
 namespace fluxwalk::rays {
 
-/// Binary tree over boxes in depth-first order: node i's left child is i + 1. Clusters copy its topology, shafts descend it.
+/// Binary tree over boxes in depth-first order: node i's left child is i + 1. Clusters copy its topology,
+/// shafts descend it.
 class SpatialTree {
   public:
     static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -24,7 +25,8 @@ class SpatialTree {
     };
 
     SpatialTree() = default;
-    /// One leaf for each box; surface area heuristic (rtcBuildBVH), the same tree for any number of threads. Boxes must be finite.
+    /// One leaf for each box; surface area heuristic (rtcBuildBVH), the same tree for any number of threads.
+    /// Boxes must be finite.
     SpatialTree(std::span<const base::Box> boxes, const base::Executor& executor);
 
     /// Joins two trees under a new root; items of `second` are shifted by `itemOffset`.

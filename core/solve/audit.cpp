@@ -31,7 +31,8 @@ Vec3d cosineDirection(const Vec3d& n, double u, double v) {
     return sine * (std::cos(angle) * side + std::sin(angle) * glm::cross(n, side)) + std::sqrt(1.0 - u) * n;
 }
 
-// Flux that leaves the scene: every leaf sends rays in proportion to its power, each worth an equal part of the leaf's power.
+// Flux that leaves the scene: every leaf sends rays in proportion to its power, each worth an equal part of
+// the leaf's power.
 Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, std::size_t rayCount) {
     const Hierarchy& h = problem.hierarchy;
     std::vector<double> before(leaves.size() + 1, 0.0);
@@ -48,7 +49,8 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
     std::vector<Vec3d> escaped(leaves.size(), Vec3d(0.0));
     problem.executor.forRange(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            // Systematic sampling: ray k belongs to the leaf whose share of the power holds (k + offset) / rayCount.
+            // Systematic sampling: ray k belongs to the leaf whose share of the power holds (k + offset) /
+            // rayCount.
             const double scale = static_cast<double>(rayCount) / total;
             const auto first = static_cast<std::int64_t>(std::ceil(before[i] * scale - offset));
             const auto last = static_cast<std::int64_t>(std::ceil(before[i + 1] * scale - offset));
@@ -64,13 +66,16 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
             for (std::int64_t k = first; k < last; ++k) {
                 base::Vec2d st = random.next2();
                 const std::uint16_t cells = h.shape(leaves[i]).exposedCells;
-                while ((cells >> (4 * static_cast<unsigned>(st.y * 4) + static_cast<unsigned>(st.x * 4)) & 1) == 0) {
+                while ((cells >> (4 * static_cast<unsigned>(st.y * 4) + static_cast<unsigned>(st.x * 4)) &
+                        1) == 0) {
                     st = random.next2();
                 }
-                const surface::SurfacePoint p = surface.evaluate(name.patch, surface::mapToRegion(region, st).uv);
+                const surface::SurfacePoint p =
+                    surface.evaluate(name.patch, surface::mapToRegion(region, st).uv);
                 const Vec3d n = name.back ? -p.normal : p.normal;
                 const double u = random.next();
-                const auto hit = problem.rays.closest(problem.rays.halfLine(p.position, n, cosineDirection(n, u, random.next())));
+                const auto hit = problem.rays.closest(
+                    problem.rays.halfLine(p.position, n, cosineDirection(n, u, random.next())));
                 escaped[i] += hit ? Vec3d(0.0) : worth;
             }
         }
@@ -136,7 +141,8 @@ Audit auditEnergy(const Problem& problem, std::size_t rayCount) {
         Vec3d arrived(0.0);
         for (const std::uint32_t l : problem.links.endingAt(id)) {
             const hierarchy::Link& link = problem.links.links[l];
-            arrived += Vec3d(h.light(id).radiosity) * static_cast<double>(link.transfer() * h.shape(link.a).exposed);
+            arrived +=
+                Vec3d(h.light(id).radiosity) * static_cast<double>(link.transfer() * h.shape(link.a).exposed);
         }
         audit.emitted += arrived;
     }

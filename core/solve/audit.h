@@ -4,12 +4,12 @@
 
 namespace fluxwalk::solve {
 
-/// Energy balance of the present solution: emitted and absorbed flux from the leaves, escaped flux from `rayCount` cosine rays of the
-/// leaves, row sums of closed scenes from the links.
+/// Energy balance of the present solution: emitted and absorbed flux from the leaves, escaped flux from
+/// `rayCount` cosine rays of the leaves, row sums of closed scenes from the links.
 Audit auditEnergy(const Problem& problem, std::size_t rayCount);
 
-/// Sum of the form factors that a leaf gathers through its own links and its ancestors', at index of each leaf's node; 0 elsewhere.
-/// `scale` multiplies the transfers of each node (Problem::rowScale), or is empty.
+/// Sum of the form factors that a leaf gathers through its own links and its ancestors', at index of each
+/// leaf's node; 0 elsewhere. `scale` multiplies the transfers of each node (Problem::rowScale), or is empty.
 std::vector<float> computeRowSums(const Problem& problem, const std::vector<float>& scale);
 
 }  // namespace fluxwalk::solve

@@ -48,8 +48,9 @@ scene::LitMeshes DisplayUpdate::refresh() {
                     const hierarchy::ElementName name = h.name(id);
                     const Rgb e = h.light(id).irradiance;
                     leaves.push_back({name.patch, name.back, name.path, e, h.shape(id).exposed});
-                    digest = base::mix(digest ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
-                                                 std::bit_cast<std::uint32_t>(e.g))) +
+                    digest = base::mix(digest ^
+                                       (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
+                                        std::bit_cast<std::uint32_t>(e.g))) +
                              std::bit_cast<std::uint32_t>(e.b) + name.path;
                 }
             }

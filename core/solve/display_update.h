@@ -5,7 +5,8 @@
 
 namespace fluxwalk::solve {
 
-/// The displayed form of a solution: rebuilds the meshes of the objects whose leaves or values changed and shares the others.
+/// The displayed form of a solution: rebuilds the meshes of the objects whose leaves or values changed and
+/// shares the others.
 class DisplayUpdate {
   public:
     explicit DisplayUpdate(Problem& problem);

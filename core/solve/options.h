@@ -12,7 +12,8 @@ using transport::OracleKind;
 /// Where the requested error is to hold.
 enum class ErrorOf : std::uint8_t {
     displayed,  ///< the interpolated vertex values of the lit mesh
-    gathered    ///< irradiance gathered at points (sensors, pictures), two to three times more exact from the same links
+    gathered    ///< irradiance gathered at points (sensors, pictures), two to three times more exact from the
+                ///< same links
 };
 
 struct Options {

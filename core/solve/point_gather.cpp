@@ -16,7 +16,8 @@ using base::Vec2d;
 using hierarchy::Hierarchy;
 using hierarchy::NodeKind;
 
-/// A source is opened while the spread of its radiosity, seen from the point, is more than this part of the mean irradiance.
+/// A source is opened while the spread of its radiosity, seen from the point, is more than this part of the
+/// mean irradiance.
 constexpr float kOpenSpread = 2e-3f;
 constexpr unsigned kMaxRays = 256;
 
@@ -44,9 +45,15 @@ class PointGather {
                     add(h_.child(source, c), isOpen);
                 }
                 return;
-            case NodeKind::light: addLight(source); return;
-            case NodeKind::sky: addSky(source); return;
-            case NodeKind::element: addElement(source, isOpen); return;
+            case NodeKind::light:
+                addLight(source);
+                return;
+            case NodeKind::sky:
+                addSky(source);
+                return;
+            case NodeKind::element:
+                addElement(source, isOpen);
+                return;
         }
     }
 
@@ -63,14 +70,17 @@ class PointGather {
         const transport::ElementPoints points = transport::makeElementPoints(h_, source);
         const double factor = transport::computePointFactor(x_, n_, points);
         const hierarchy::Light& light = h_.light(source);
-        const bool isNear = !shape.isPlanar && glm::length(toSource) < 6.0 * static_cast<double>(shape.radius);
-        if (!h_.isLeaf(source) && (isNear || static_cast<float>(factor) * light.spread > kOpenSpread * reference_)) {
+        const bool isNear =
+            !shape.isPlanar && glm::length(toSource) < 6.0 * static_cast<double>(shape.radius);
+        if (!h_.isLeaf(source) &&
+            (isNear || static_cast<float>(factor) * light.spread > kOpenSpread * reference_)) {
             for (unsigned c = 0; c < 4; ++c) {
                 add(h_.child(source, c), isOpen);
             }
             return;
         }
-        const float contribution = static_cast<float>(factor) * base::channelMean(light.radiosity) / reference_;
+        const float contribution =
+            static_cast<float>(factor) * base::channelMean(light.radiosity) / reference_;
         if (contribution <= 0.0f) {
             return;
         }
@@ -137,7 +147,8 @@ class PointGather {
         const Vec3d d = light.position - x_;
         const double r2 = std::max(glm::dot(d, d), 1e-12);
         const double cosine = glm::dot(n_, d) / std::sqrt(r2);
-        if (cosine > 0.0 && !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
+        if (cosine > 0.0 &&
+            !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
             sum_ += cosine / r2 * Vec3d(scene::intensityToward(light, -glm::normalize(d)));
         }
     }

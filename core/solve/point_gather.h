@@ -11,9 +11,10 @@ struct GatherPoint {
     Vec3d normal{};  ///< towards the side that receives
 };
 
-/// Irradiance at a point in lux, each channel: the links of its leaf and of all ancestors name the sources, each is integrated again
-/// from the point with its exact form factor and shadow rays of the point's own (Schaefer, section 1, final gathering; ALGORITHMS
-/// 1.14). Sources whose radiosity varies are opened where that matters.
+/// Irradiance at a point in lux, each channel: the links of its leaf and of all ancestors name the sources,
+/// each is integrated again from the point with its exact form factor and shadow rays of the point's own
+/// (Schaefer, section 1, final gathering; ALGORITHMS 1.14). Sources whose radiosity varies are opened where
+/// that matters.
 Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point);
 
 /// The same for a point in free space: sources are found from the root, by the same criterion.

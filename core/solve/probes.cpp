@@ -21,8 +21,10 @@ std::vector<Probe> drawProbes(const Problem& problem, std::size_t count, std::ui
     base::RandomStream random(base::combine(seed, 0x9206e5));
     // Points under solids are drawn again; a scene of hidden points only would never end, hence the bound.
     for (std::size_t tries = 0; probes.size() < count && tries < 100 * count; ++tries) {
-        const double stratum = (static_cast<double>(probes.size()) + random.next()) / static_cast<double>(count);
-        const auto at = std::upper_bound(before.begin(), before.end(), stratum * before.back()) - before.begin() - 1;
+        const double stratum =
+            (static_cast<double>(probes.size()) + random.next()) / static_cast<double>(count);
+        const auto at =
+            std::upper_bound(before.begin(), before.end(), stratum * before.back()) - before.begin() - 1;
         const NodeId id = h.patches()[std::min(static_cast<std::size_t>(at), h.patches().size() - 1)];
         const hierarchy::ElementName name = h.name(id);
         const surface::Surface& surface = h.surfaceOf(id);

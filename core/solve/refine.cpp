@@ -197,8 +197,9 @@ class Refinement {
         if (shapeA.exposedCells == 0 || (kindB == NodeKind::element && shapeB.exposedCells == 0)) {
             return d;
         }
-        if (kindB == NodeKind::element && (isBehind(shapeA, shapeB, tolerance_) || isBehind(shapeB, shapeA, tolerance_) ||
-                                           facesAway(shapeA, shapeB) || facesAway(shapeB, shapeA))) {
+        if (kindB == NodeKind::element &&
+            (isBehind(shapeA, shapeB, tolerance_) || isBehind(shapeB, shapeA, tolerance_) ||
+             facesAway(shapeA, shapeB) || facesAway(shapeB, shapeA))) {
             return d;
         }
         Coefficient c;
@@ -214,7 +215,8 @@ class Refinement {
         return d;
     }
 
-    // A concave element sees itself: kept as a link where its kernel is one constant or it is small, otherwise split into its parts.
+    // A concave element sees itself: kept as a link where its kernel is one constant or it is small,
+    // otherwise split into its parts.
     Decision decideSelf(const Query& pair, Counters& counters) const {
         constexpr unsigned kSelfLevels = 3;
         Decision d;
@@ -232,7 +234,8 @@ class Refinement {
         if (!surface.canSeeItself(name.patch, name.back)) {
             return d;
         }
-        if (!surface.exactKernel(name.back) && surface::pathLevel(name.path) < kSelfLevels && isSplittable(pair.a)) {
+        if (!surface.exactKernel(name.back) && surface::pathLevel(name.path) < kSelfLevels &&
+            isSplittable(pair.a)) {
             d.verdict = Verdict::splitSelf;
             return d;
         }
@@ -274,6 +277,8 @@ class Refinement {
     static void setCoefficient(Link& link, const Coefficient& c) {
         link.coupling = c.coupling;
         link.setVisibility(c.visibility, c.isOpen);
+        link.gradientA = hierarchy::GradientCode::encode(c.gradientA);
+        link.gradientB = hierarchy::GradientCode::encode(c.gradientB);
         link.spreadA = hierarchy::UncertaintyCode::encode(c.spreadA);
         link.spreadB = hierarchy::UncertaintyCode::encode(c.spreadB);
     }
@@ -317,7 +322,8 @@ class Refinement {
         return next;
     }
 
-    // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it was reached.
+    // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it
+    // was reached.
     Query ordered(NodeId a, NodeId b, bool open) const {
         const bool sourceA = hierarchy_.kind(a) == NodeKind::light || hierarchy_.kind(a) == NodeKind::sky;
         const bool sourceB = hierarchy_.kind(b) == NodeKind::light || hierarchy_.kind(b) == NodeKind::sky;

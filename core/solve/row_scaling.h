@@ -7,8 +7,9 @@ namespace fluxwalk::solve {
 /// Largest change of a transfer by row scaling.
 inline constexpr float kMaxRowScaling = 0.05f;
 
-/// Factors for Problem::rowScale that bring the row sums towards 1 (closed scenes) or below 1 (open ones). Both ends of a link take
-/// part, so reciprocity stays exact; no transfer changes by more than kMaxRowScaling (ALGORITHMS 1.7).
+/// Factors for Problem::rowScale that bring the row sums towards 1 (closed scenes) or below 1 (open ones).
+/// Both ends of a link take part, so reciprocity stays exact; no transfer changes by more than kMaxRowScaling
+/// (ALGORITHMS 1.7).
 std::vector<float> computeRowScaling(const Problem& problem);
 
 }  // namespace fluxwalk::solve

@@ -22,7 +22,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kTighten = 4.0;
 /// Points at which the error is estimated.
 constexpr std::size_t kProbeCount = 128;
-/// Measured on the Cornell box: the true error of gathered values is 1.5 to 2 times their change from one level to the next.
+/// Measured on the Cornell box: the true error of gathered values is 1.5 to 2 times their change from one
+/// level to the next.
 constexpr double kErrorOfChange = 2.0;
 constexpr std::size_t kAuditRays = 8192;
 constexpr std::size_t kFinalAuditRays = 262144;
@@ -31,10 +32,13 @@ constexpr int kFinalSweeps = 100;
 constexpr double kFinalResidual = 1e-6;
 constexpr double kPublishInterval = 0.1;  ///< seconds
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-// What the whole scene would get if its light were mixed well and half of it lost: the first guess for what is not lit yet, so that
-// the oracle sees interreflection before the first sweep. Also the unit of the first threshold.
+// What the whole scene would get if its light were mixed well and half of it lost: the first guess for what
+// is not lit yet, so that the oracle sees interreflection before the first sweep. Also the unit of the first
+// threshold.
 double estimateAmbient(const Problem& problem) {
     const hierarchy::Hierarchy& h = problem.hierarchy;
     double flux = 0.0;
@@ -45,8 +49,9 @@ double estimateAmbient(const Problem& problem) {
         reflected += area * static_cast<double>(base::channelMean(h.light(id).reflectance));
     }
     for (const NodeId id : h.sources()) {
-        const bool isPointLike = h.kind(id) == hierarchy::NodeKind::light &&
-                                 problem.scene->lights[h.lightIndex(id)].kind != scene::LightKind::directional;
+        const bool isPointLike =
+            h.kind(id) == hierarchy::NodeKind::light &&
+            problem.scene->lights[h.lightIndex(id)].kind != scene::LightKind::directional;
         const double measure = isPointLike ? 4.0 * base::kPi : 0.1 * h.totalArea();
         flux += measure * static_cast<double>(base::channelMean(h.light(id).radiosity));
     }
@@ -80,7 +85,9 @@ double firstThreshold(OracleKind oracle, double ambient) {
 
 struct Solver::State {
     State(std::shared_ptr<const scene::Scene> scene, const Options& options, unsigned threads)
-        : problem(std::move(scene), options, threads), display(problem), probes(drawProbes(problem, kProbeCount, options.seed)) {}
+        : problem(std::move(scene), options, threads),
+          display(problem),
+          probes(drawProbes(problem, kProbeCount, options.seed)) {}
 
     Problem problem;
     DisplayUpdate display;
@@ -97,7 +104,11 @@ namespace {
 class Run {
   public:
     Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, std::uint64_t& sequence)
-        : problem_(problem), display_(display), callbacks_(callbacks), sequence_(sequence), before_(problem.statistics.times.total) {}
+        : problem_(problem),
+          display_(display),
+          callbacks_(callbacks),
+          sequence_(sequence),
+          before_(problem.statistics.times.total) {}
 
     bool isStopped() {
         if (callbacks_.newOptions) {
@@ -115,12 +126,15 @@ class Run {
 
     double seconds() const { return before_ + secondsSince(start_); }
     Outcome outcome() const {
-        return wasStopped_ ? Outcome::stopped : isOutOfTime_ ? Outcome::reachedTimeLimit : Outcome::reachedError;
+        return wasStopped_    ? Outcome::stopped
+               : isOutOfTime_ ? Outcome::reachedTimeLimit
+                              : Outcome::reachedError;
     }
 
     void publish(bool isFinished) {
         problem_.statistics.times.total = seconds();
-        if (!callbacks_.publish || (!isFinished && sequence_ > 0 && secondsSince(published_) < kPublishInterval)) {
+        if (!callbacks_.publish ||
+            (!isFinished && sequence_ > 0 && secondsSince(published_) < kPublishInterval)) {
             return;
         }
         published_ = Clock::now();
@@ -157,7 +171,8 @@ class Run {
         // Errors fall by about a constant factor a level: progress is the part of the levels that are done.
         const double error = problem_.statistics.estimatedError;
         const double wanted = std::max(1e-6, problem_.options.error);
-        const double share = error > 0.0 ? std::log(1.0 / error) / std::log(1.0 / std::min(0.5, wanted)) : 0.0;
+        const double share =
+            error > 0.0 ? std::log(1.0 / error) / std::log(1.0 / std::min(0.5, wanted)) : 0.0;
         callbacks_.progress(std::clamp(share, 0.0, 1.0), stage);
     }
 
@@ -183,14 +198,24 @@ Solver::Solver(std::shared_ptr<const scene::Scene> scene, const Options& options
 
 Solver::~Solver() = default;
 
-void Solver::setOptions(const Options& options) { state_->problem.options = options; }
-const Options& Solver::options() const { return state_->problem.options; }
-const Statistics& Solver::statistics() const { return state_->problem.statistics; }
-const Problem& Solver::problem() const { return state_->problem; }
-scene::LitMeshes Solver::litMeshes() const { return state_->display.refresh(); }
+void Solver::setOptions(const Options& options) {
+    state_->problem.options = options;
+}
+const Options& Solver::options() const {
+    return state_->problem.options;
+}
+const Statistics& Solver::statistics() const {
+    return state_->problem.statistics;
+}
+const Problem& Solver::problem() const {
+    return state_->problem;
+}
+scene::LitMeshes Solver::litMeshes() const {
+    return state_->display.refresh();
+}
 
-// Error of what is asked for, as a part of the mean irradiance: displayed values against gathered ones, and gathered ones against those
-// of the level before.
+// Error of what is asked for, as a part of the mean irradiance: displayed values against gathered ones, and
+// gathered ones against those of the level before.
 double Solver::estimateError() {
     State& state = *state_;
     const StageTimer timer(state.problem.statistics.times.audit);
@@ -226,8 +251,8 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         run.sweep(kSweepsPerLevel, 0.05 * problem.options.error);
         run.audit(kAuditRays);
         statistics.estimatedError = estimateError();
-        statistics.history.push_back({run.seconds(), statistics.threshold, statistics.residual, statistics.estimatedError,
-                                      statistics.counters.links});
+        statistics.history.push_back({run.seconds(), statistics.threshold, statistics.residual,
+                                      statistics.estimatedError, statistics.counters.links});
         run.publish(false);
         const bool isUserThreshold = problem.options.threshold > 0.0;
         isDone = run.isStopped() || (isUserThreshold ? statistics.threshold <= problem.options.threshold

@@ -36,9 +36,7 @@ struct Problem {
     std::vector<float> rowScale;
 
     /// Smallest area in m2 that is still split.
-    double minArea() const {
-        return options.minArea > 0.0 ? options.minArea : 1e-7 * hierarchy.totalArea();
-    }
+    double minArea() const { return options.minArea > 0.0 ? options.minArea : 1e-7 * hierarchy.totalArea(); }
 };
 
 /// Adds its own life time to a stage's seconds.

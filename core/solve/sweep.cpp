@@ -1,6 +1,7 @@
 #include "core/solve/sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/photometry.h"
@@ -9,8 +10,8 @@ namespace fluxwalk::solve {
 
 namespace {
 
-/// A block gathers through at least this many link ends, so that threads have work, but never through more than an eighth of all,
-/// so that it stays Gauss-Seidel.
+/// A block gathers through at least this many link ends, so that threads have work, but never through more
+/// than an eighth of all, so that it stays Gauss-Seidel.
 constexpr std::size_t kMinEnds = 2048;
 constexpr std::size_t kMinBlocks = 8;
 
@@ -47,6 +48,7 @@ Sweeper::Sweeper(Problem& problem) : problem_(problem) {
     if (block.begin < block.end) {
         blocks_.push_back(block);
     }
+    gathered_.resize(h.nodeCount());
     lowest_.resize(h.nodeCount());
     highest_.resize(h.nodeCount());
 }
@@ -63,14 +65,6 @@ double Sweeper::sweep() {
     return power > 0.0 ? change / power : 0.0;
 }
 
-void Sweeper::pushPull() {
-    double change = 0.0;
-    double power = 0.0;
-    for (const Block& block : blocks_) {
-        pushPull(block, change, power);
-    }
-}
-
 void Sweeper::gather(const Block& block) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     const std::vector<hierarchy::Link>& links = problem_.links.links;
@@ -79,30 +73,87 @@ void Sweeper::gather(const Block& block) {
         for (std::size_t i = begin; i < end; ++i) {
             const NodeId id = order_[block.begin + i];
             Vec3d sum(0.0);
+            Rgb slopeS(0.0f);
+            Rgb slopeT(0.0f);
             for (const std::uint32_t l : problem_.links.endingAt(id)) {
                 const hierarchy::Link& link = links[l];
-                const NodeId source = link.a == id ? link.b : link.a;
+                const bool isA = link.a == id;
+                const NodeId source = isA ? link.b : link.a;
                 float transfer = link.transfer() * h.shape(source).exposed;
                 if (isScaled) {
                     transfer *= problem_.rowScale[base::index(source)];
                 }
-                sum += Vec3d(h.light(source).radiosity) * static_cast<double>(transfer);
+                const Rgb power = h.light(source).radiosity * transfer;
+                const base::Vec2 gradient = (isA ? link.gradientA : link.gradientB).decode();
+                sum += Vec3d(power);
+                slopeS += power * gradient.x;
+                slopeT += power * gradient.y;
             }
             const double scale = isScaled ? static_cast<double>(problem_.rowScale[base::index(id)]) : 1.0;
-            h.light(id).gathered = Rgb(sum * (scale / static_cast<double>(h.shape(id).area)));
+            const double perArea = scale / static_cast<double>(h.shape(id).area);
+            LinearIrradiance& out = gathered_[base::index(id)];
+            out.mean = Rgb(sum * perArea);
+            out.s = slopeS * static_cast<float>(perArea);
+            out.t = slopeT * static_cast<float>(perArea);
+            if (h.name(id).back) {
+                // Corners of a back side run the other way round than its region's.
+                if (h.shape(id).cornerCount == 3) {
+                    out.s -= out.t;
+                }
+                out.t = -out.t;
+            }
         }
     });
 }
 
-// Push moves irradiance down unchanged, pull takes means by true exposed area: adjoint to each other (ALGORITHMS 1.5, convention A).
+// What child `child` takes over: the parent's linear function on its quarter. Offsets are taken from the
+// children's mean by exposed area, so that the linear part moves no power.
+Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
+                                               const LinearIrradiance& from) const {
+    const hierarchy::Hierarchy& h = problem_.hierarchy;
+    using base::Vec2;
+    constexpr float kSixth = 1.0f / 6.0f;
+    constexpr float kThird = 1.0f / 3.0f;
+    constexpr std::array<std::array<float, 2>, 4> kQuad{
+        {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}};
+    constexpr std::array<std::array<float, 2>, 4> kTriangle{
+        {{-kSixth, -kSixth}, {kThird, -kSixth}, {-kSixth, kThird}, {0.0f, 0.0f}}};
+    const bool isTriangle = h.shape(parent).cornerCount == 3;
+    const auto& offsets = isTriangle ? kTriangle : kQuad;
+    Vec2 mean(0.0f);
+    float area = 0.0f;
+    for (unsigned c = 0; c < 4; ++c) {
+        const float part = h.shape(h.child(parent, c)).exposedArea();
+        mean += part * Vec2(offsets[c][0], offsets[c][1]);
+        area += part;
+    }
+    const Vec2 offset = Vec2(offsets[child][0], offsets[child][1]) - (area > 0.0f ? mean / area : Vec2(0.0f));
+    // The middle quarter of a triangle is turned round.
+    const float scale = isTriangle && child == 3 ? -0.5f : 0.5f;
+    const Rgb value = from.mean + offset.x * from.s + offset.y * from.t;
+    return {value, scale * from.s, scale * from.t};
+}
+
+// Push moves irradiance down, pull takes means by true exposed area: adjoint to each other in the means
+// (ALGORITHMS 1.5, convention A).
 void Sweeper::pushPull(const Block& block, double& change, double& power) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     for (std::size_t i = block.begin; i < block.end; ++i) {
         const NodeId id = order_[i];
         const NodeId parent = h.parent(id);
         const bool isPatch = parent == NodeId::none || h.kind(parent) == hierarchy::NodeKind::cluster;
-        hierarchy::Light& light = h.light(id);
-        light.irradiance = light.gathered + (isPatch ? Rgb(0.0f) : h.light(parent).irradiance);
+        LinearIrradiance& own = gathered_[base::index(id)];
+        if (!isPatch) {
+            const unsigned child = base::index(id) - base::index(h.child(parent, 0));
+            const LinearIrradiance from = inheritedBy(parent, child, gathered_[base::index(parent)]);
+            own.mean += from.mean;
+            own.s += from.s;
+            own.t += from.t;
+        }
+        if (h.isLeaf(id)) {
+            // Limited linear parts can still add up to a little less than nothing.
+            h.light(id).irradiance = glm::max(own.mean, Rgb(0.0f));
+        }
     }
     for (std::size_t i = block.end; i-- > block.begin;) {
         const NodeId id = order_[i];

@@ -4,8 +4,8 @@
 
 namespace fluxwalk::solve {
 
-/// Gathers, pushes and pulls over the whole hierarchy, in place, block by block (blocked Gauss-Seidel: Jacobi inside a block, which is
-/// a run of neighbouring patches fixed by the hierarchy). ALGORITHMS 1.5, 1.11.
+/// Gathers, pushes and pulls over the whole hierarchy, in place, block by block (blocked Gauss-Seidel: Jacobi
+/// inside a block, which is a run of neighbouring patches fixed by the hierarchy). ALGORITHMS 1.5, 1.11.
 class Sweeper {
   public:
     /// Lays out the blocks; make a new one after refinement.
@@ -13,9 +13,6 @@ class Sweeper {
 
     /// One sweep. Returns sum |dB| A / sum B A over the leaves, channel means.
     double sweep();
-
-    /// Pushes what is gathered and pulls radiosity once, without gathering.
-    void pushPull();
 
     std::size_t blockCount() const { return blocks_.size(); }
 
@@ -28,10 +25,21 @@ class Sweeper {
     void gather(const Block& block);
     void pushPull(const Block& block, double& change, double& power);
 
+    /// Irradiance over an element: mean + s * local.x + t * local.y (transport::localPointCoordinates, in the
+    /// region's orientation).
+    struct LinearIrradiance {
+        Rgb mean{0.0f};
+        Rgb s{0.0f};
+        Rgb t{0.0f};
+    };
+    LinearIrradiance inheritedBy(NodeId parent, unsigned child, const LinearIrradiance& from) const;
+
     Problem& problem_;
-    std::vector<NodeId> order_;      ///< nodes of the elements' trees, parents before children
+    std::vector<LinearIrradiance>
+        gathered_;               ///< by node: through its own links, then with that of all ancestors
+    std::vector<NodeId> order_;  ///< nodes of the elements' trees, parents before children
     std::vector<Block> blocks_;
-    std::vector<float> lowest_;      ///< of the channel-mean radiosity below a node, in order_
+    std::vector<float> lowest_;  ///< of the channel-mean radiosity below a node, in order_
     std::vector<float> highest_;
 };
 

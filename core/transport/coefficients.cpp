@@ -12,7 +12,8 @@ namespace fluxwalk::transport {
 namespace {
 
 // Mean and relative deviation over an element of what a light source without area, or the sky, sends to it.
-void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, NodeId source, Coefficient& out) {
+void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, NodeId source,
+                      Coefficient& out) {
     std::array<double, base::kLanes> factor{};
     double mean = 0.0;
     for (int i = 0; i < base::kLanes; ++i) {
@@ -33,20 +34,24 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
                 if (light.kind == scene::LightKind::spot) {
                     const float full = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
                     const base::Rgb there = scene::intensityToward(light, -glm::normalize(d));
-                    f *= full > 0.0f ? static_cast<double>(std::max({there.r, there.g, there.b}) / full) : 0.0;
+                    f *=
+                        full > 0.0f ? static_cast<double>(std::max({there.r, there.g, there.b}) / full) : 0.0;
                 }
             }
         }
         factor[static_cast<std::size_t>(i)] = f;
         mean += e.weight[i] * f;
     }
-    const auto [lowest, highest] = std::minmax_element(factor.begin(), factor.end());
     out.coupling = static_cast<float>(e.area * mean);
-    if (mean <= 0.0 && *highest > 0.0) {
-        mean = *highest / 64.0;
-        out.coupling = static_cast<float>(e.area * mean);
+    const LinearFit fit = fitLinear(e, factor, mean);
+    if (mean > 0.0) {
+        out.gradientA = base::Vec2(fit.gradient);
+        out.spreadA = static_cast<float>(fit.deviation / mean);
+    } else if (fit.largest > 0.0) {
+        // Only a corner is lit: a rough value that the oracle will not trust.
+        out.coupling = static_cast<float>(e.area * fit.largest / 64.0);
+        out.spreadA = 64.0f;
     }
-    out.spreadA = mean > 0.0 ? static_cast<float>(std::max(*highest - mean, mean - *lowest) / mean) : 0.0f;
     out.evaluations = base::kLanes;
 }
 
@@ -79,6 +84,8 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     } else {
         const PairFactor factor = computePairFactor(a, b);
         coupling = factor.coupling;
+        out.gradientA = base::Vec2(factor.gradientA);
+        out.gradientB = base::Vec2(factor.gradientB);
         out.spreadA = static_cast<float>(factor.spreadA);
         out.spreadB = static_cast<float>(factor.spreadB);
         out.evaluations = static_cast<std::uint16_t>(factor.evaluations);
@@ -89,12 +96,15 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         return out;
     }
     switch (inspectShaft(hierarchy_, query.a, query.b, 0.5 * rays_.lift())) {
-        case ShaftContent::empty: out.isOpen = true; return out;
+        case ShaftContent::empty:
+            out.isOpen = true;
+            return out;
         case ShaftContent::blocked:
             out.isBlocked = true;
             out.visibility = 0.0f;
             return out;
-        case ShaftContent::unknown: break;
+        case ShaftContent::unknown:
+            break;
     }
     const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
     out.visibility = seen.mean;

@@ -22,7 +22,9 @@ struct Query {
 struct Coefficient {
     float coupling = 0.0f;  ///< unoccluded, m2, over the whole of both
     float visibility = 1.0f;
-    float spreadA = 0.0f;  ///< relative deviation of the kernel over a
+    base::Vec2 gradientA{0.0f};  ///< of the kernel over a, relative (PairFactor)
+    base::Vec2 gradientB{0.0f};
+    float spreadA = 0.0f;  ///< relative deviation of the kernel over a from the linear function
     float spreadB = 0.0f;
     bool isOpen = false;
     bool isBlocked = false;  ///< certain
@@ -31,11 +33,12 @@ struct Coefficient {
     std::uint16_t evaluations = 0;
 };
 
-/// Computes batches of coefficients; the narrow interface that other machines can implement too. Pure: results depend on the names of
-/// the pairs and the original objects only.
+/// Computes batches of coefficients; the narrow interface that other machines can implement too. Pure:
+/// results depend on the names of the pairs and the original objects only.
 class CoefficientService {
   public:
-    CoefficientService(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays) : hierarchy_(hierarchy), rays_(rays) {}
+    CoefficientService(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays)
+        : hierarchy_(hierarchy), rays_(rays) {}
 
     /// out.size() == queries.size(). Safe to call from several threads on disjoint spans.
     void compute(std::span<const Query> queries, std::span<Coefficient> out) const;

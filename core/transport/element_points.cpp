@@ -44,13 +44,13 @@ constexpr double kSixth = 1.0 / 6.0;
 
 LocalPoints localPoints(std::uint32_t cornerCount) {
     if (cornerCount == 3) {
-        return {{Vec2d{kSixth, kSixth}, Vec2d{2 * kThird, kSixth}, Vec2d{kSixth, 2 * kThird}, Vec2d{kThird, kThird},
-                 Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{kThird, kThird}},
+        return {{Vec2d{kSixth, kSixth}, Vec2d{2 * kThird, kSixth}, Vec2d{kSixth, 2 * kThird},
+                 Vec2d{kThird, kThird}, Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{kThird, kThird}},
                 {kThird, kThird, kThird, 0, 0, 0, 0, 0}};
     }
     const double g = kGauss2;
-    return {{Vec2d{g, g}, Vec2d{1 - g, g}, Vec2d{1 - g, 1 - g}, Vec2d{g, 1 - g}, Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1, 1},
-             Vec2d{0, 1}},
+    return {{Vec2d{g, g}, Vec2d{1 - g, g}, Vec2d{1 - g, 1 - g}, Vec2d{g, 1 - g}, Vec2d{0, 0}, Vec2d{1, 0},
+             Vec2d{1, 1}, Vec2d{0, 1}},
             {0.25, 0.25, 0.25, 0.25, 0, 0, 0, 0}};
 }
 
@@ -61,6 +61,18 @@ void setLane(base::Lanes3& v, int lane, const Vec3d& p) {
 }
 
 }  // namespace
+
+const std::array<base::Vec2d, base::kLanes>& localPointCoordinates(std::uint32_t cornerCount) {
+    static const std::array<std::array<Vec2d, base::kLanes>, 2> kCoordinates = [] {
+        std::array<std::array<Vec2d, base::kLanes>, 2> both{};
+        for (std::size_t i = 0; i < base::kLanes; ++i) {
+            both[0][i] = localPoints(3).at[i] - Vec2d(kThird);
+            both[1][i] = 2.0 * localPoints(4).at[i] - Vec2d(1.0);
+        }
+        return both;
+    }();
+    return kCoordinates[cornerCount == 3 ? 0 : 1];
+}
 
 ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id) {
     const hierarchy::Shape& shape = hierarchy.shape(id);
@@ -90,10 +102,9 @@ ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id
         const auto& c = region.corners;
         for (int i = 0; i < base::kLanes; ++i) {
             const Vec2d at = local.at[static_cast<std::size_t>(i)];
-            const Vec2d uv = region.cornerCount == 3
-                                 ? (1.0 - at.x - at.y) * c[0] + at.x * c[1] + at.y * c[2]
-                                 : (1.0 - at.y) * ((1.0 - at.x) * c[0] + at.x * c[1]) +
-                                       at.y * ((1.0 - at.x) * c[3] + at.x * c[2]);
+            const Vec2d uv = region.cornerCount == 3 ? (1.0 - at.x - at.y) * c[0] + at.x * c[1] + at.y * c[2]
+                                                     : (1.0 - at.y) * ((1.0 - at.x) * c[0] + at.x * c[1]) +
+                                                           at.y * ((1.0 - at.x) * c[3] + at.x * c[2]);
             const surface::SurfacePoint p = surface.evaluate(name.patch, uv);
             setLane(e.position, i, p.position);
             setLane(e.normal, i, name.back ? -p.normal : p.normal);

@@ -9,9 +9,10 @@ using base::Lanes;
 using base::NodeId;
 using base::Vec3d;
 
-/// An element as kernels see it: eight points of the true surface with true normals. Lanes 0..3 are cubature points (2 x 2 Gauss of
-/// the region, or three points of a triangle) whose weights sum to 1, the others are the corners (weight 0), which show what
-/// cubature misses: a horizon that crosses the element, and the full range of the kernel.
+/// An element as kernels see it: eight points of the true surface with true normals. Lanes 0..3 are cubature
+/// points (2 x 2 Gauss of the region, or three points of a triangle) whose weights sum to 1, the others are
+/// the corners (weight 0), which show what cubature misses: a horizon that crosses the element, and the full
+/// range of the kernel.
 struct ElementPoints {
     base::Lanes3 position;
     base::Lanes3 normal;
@@ -27,7 +28,13 @@ struct ElementPoints {
 
 ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id);
 
-/// Denser cubature of a planar element: 4 x 4 Gauss points in two blocks of lanes, weights sum to 1 over both.
+/// Coordinates of the eight points within their element, 0 in the middle, in the order of the shape's
+/// corners. Quads: (2 s - 1, 2 t - 1). Triangles: (u - 1/3, v - 1/3) with u, v the barycentric weights of
+/// corners 1 and 2.
+const std::array<base::Vec2d, base::kLanes>& localPointCoordinates(std::uint32_t cornerCount);
+
+/// Denser cubature of a planar element: 4 x 4 Gauss points in two blocks of lanes, weights sum to 1 over
+/// both.
 struct DensePoints {
     std::array<base::Lanes3, 2> position;
     std::array<Lanes, 2> weight;

@@ -13,23 +13,27 @@ using base::cross;
 using base::dot;
 using base::kLanes;
 using base::kPi;
-using base::Lanes3;
 using base::LaneMask;
+using base::Lanes3;
 using base::splat;
 
-/// Pairs farther apart than this many times the sum of their radii use 2 x 2 Gauss pairs: relative error below 1e-4.
+/// Pairs farther apart than this many times the sum of their radii use 2 x 2 Gauss pairs: relative error
+/// below 1e-4.
 constexpr double kFar = 4.0;
 /// Pairs closer than this many times the larger radius use 4 x 4 receiver points.
 constexpr double kNear = 2.0;
 
-FLUXWALK_INLINE Lanes3 splat3(const Vec3d& v) { return {splat(v.x), splat(v.y), splat(v.z)}; }
+FLUXWALK_INLINE Lanes3 splat3(const Vec3d& v) {
+    return {splat(v.x), splat(v.y), splat(v.z)};
+}
 
 FLUXWALK_INLINE double sumLanes(Lanes v) {
     return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
 // Lambert's formula for one point whose horizon cuts the polygon: clip, then sum over the edges.
-double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d, 4>& corners, std::uint32_t count) {
+double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d, 4>& corners,
+                          std::uint32_t count) {
     std::array<Vec3d, 8> clipped;
     std::uint32_t m = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -84,21 +88,26 @@ FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std:
     if (base::anyLane(straddling)) {
         for (int i = 0; i < kLanes; ++i) {
             if (straddling[i] != 0) {
-                factor[i] = clippedPointFactor({x.x[i], x.y[i], x.z[i]}, {n.x[i], n.y[i], n.z[i]}, corners, count);
+                factor[i] =
+                    clippedPointFactor({x.x[i], x.y[i], x.z[i]}, {n.x[i], n.y[i], n.z[i]}, corners, count);
             }
         }
     }
     return factor;
 }
 
-// Factor of an element seen from eight points, by the source's cubature points; `soften` (m2) keeps the kernel finite when near.
-FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source, double soften) {
+// Factor of an element seen from eight points, by the source's cubature points; `soften` (m2) keeps the
+// kernel finite when near.
+FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source,
+                                     double soften) {
     Lanes sum = splat(0.0);
     for (int j = 0; j < 4; ++j) {
-        const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y, source.position.z[j] - x.z};
+        const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
+                           source.position.z[j] - x.z};
         const Lanes r2 = dot(to, to);
         const Lanes here = dot(n, to);
-        const Lanes there = -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
+        const Lanes there =
+            -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
         const Lanes facing = base::maxLanes(here, splat(0.0)) * base::maxLanes(there, splat(0.0));
         sum += source.weight[j] * facing / base::maxLanes(r2 * (kPi * r2 + soften), splat(1e-300));
     }
@@ -106,22 +115,18 @@ FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const Ele
 }
 
 struct OneWay {
+    Lanes values{};
     double mean = 0.0;
-    double deviation = 0.0;
     double largest = 0.0;
 };
 
 FLUXWALK_INLINE OneWay summarize(Lanes factor, Lanes weight) {
     OneWay r;
+    r.values = factor;
     r.mean = sumLanes(weight * factor);
-    double lowest = factor[0];
-    double highest = factor[0];
-    for (int i = 1; i < kLanes; ++i) {
-        lowest = std::min(lowest, static_cast<double>(factor[i]));
-        highest = std::max(highest, static_cast<double>(factor[i]));
+    for (int i = 0; i < kLanes; ++i) {
+        r.largest = std::max(r.largest, static_cast<double>(factor[i]));
     }
-    r.largest = highest;
-    r.deviation = std::max(highest - r.mean, r.mean - lowest);
     return r;
 }
 
@@ -134,13 +139,15 @@ FLUXWALK_INLINE OneWay lookAt(const ElementPoints& receiver, const ElementPoints
     }
     evaluations += 8 * source.cornerCount;
     OneWay r = summarize(
-        polygonFactor(receiver.position, receiver.normal, source.corners, source.cornerCount, tolerance), receiver.weight);
+        polygonFactor(receiver.position, receiver.normal, source.corners, source.cornerCount, tolerance),
+        receiver.weight);
     if (near && receiver.isPlanar && r.largest > 0.0) {
         const DensePoints dense = makeDensePoints(receiver);
         double mean = 0.0;
         for (std::size_t block = 0; block < 2; ++block) {
-            mean += sumLanes(dense.weight[block] * polygonFactor(dense.position[block], receiver.normal, source.corners,
-                                                                 source.cornerCount, tolerance));
+            mean +=
+                sumLanes(dense.weight[block] * polygonFactor(dense.position[block], receiver.normal,
+                                                             source.corners, source.cornerCount, tolerance));
         }
         evaluations += 16 * source.cornerCount;
         r.mean = mean;
@@ -148,52 +155,113 @@ FLUXWALK_INLINE OneWay lookAt(const ElementPoints& receiver, const ElementPoints
     return r;
 }
 
-FLUXWALK_INLINE PairFactor pairFactor(const ElementPoints& a, const ElementPoints& b) {
-    PairFactor result;
+/// Both views of a pair, before they are combined.
+struct BothWays {
+    OneWay atA;
+    OneWay atB;
+    bool far = false;
+    std::uint32_t evaluations = 0;
+};
+
+FLUXWALK_INLINE BothWays viewBoth(const ElementPoints& a, const ElementPoints& b) {
+    BothWays result;
     const double distance = glm::distance(a.center, b.center);
     const double reach = a.radius + b.radius;
-    const bool far = distance > kFar * reach;
+    result.far = distance > kFar * reach;
     const bool near = distance - reach < kNear * std::max(a.radius, b.radius);
     const double tolerance = 1e-6 * (distance + reach);
-    const OneWay atA = lookAt(a, b, far, near, tolerance, result.evaluations);
-    const OneWay atB = lookAt(b, a, far, near, tolerance, result.evaluations);
-    // Points of the smaller element see the larger one's exact factor vary least, so they weigh more; where only one element is
-    // planar, its exact factor seen from the curved one counts alone.
-    double weightA = b.radius * b.radius / (a.radius * a.radius + b.radius * b.radius);
-    if (!far && a.isPlanar != b.isPlanar) {
-        weightA = b.isPlanar ? 1.0 : 0.0;
-    }
-    result.coupling = weightA * a.area * atA.mean + (1.0 - weightA) * b.area * atB.mean;
-    const double meanA = result.coupling / a.area;
-    const double meanB = result.coupling / b.area;
-    if (result.coupling <= 1e-3 * std::max(a.area * atA.largest, b.area * atB.largest)) {
-        // (Nearly) all cubature points are below the horizon but a corner is not: a rough value that the oracle will not trust.
-        constexpr double kCornerShare = 1.0 / 64.0;
-        result.coupling = kCornerShare * std::min(a.area * std::max(atA.largest, 1e-30), b.area * std::max(atB.largest, 1e-30));
-        if (atA.largest <= 0.0 && atB.largest <= 0.0) {
-            result.coupling = 0.0;
-        } else if (atA.largest <= 0.0 || atB.largest <= 0.0) {
-            result.coupling = kCornerShare * std::max(a.area * atA.largest, b.area * atB.largest);
-        }
-        result.spreadA = result.spreadB = 1.0 / kCornerShare;
-        return result;
-    }
-    result.spreadA = atA.deviation / meanA;
-    result.spreadB = atB.deviation / meanB;
+    result.atA = lookAt(a, b, result.far, near, tolerance, result.evaluations);
+    result.atB = lookAt(b, a, result.far, near, tolerance, result.evaluations);
     return result;
 }
 
-[[gnu::target("avx2")]] PairFactor pairFactorAvx2(const ElementPoints& a, const ElementPoints& b) {
-    return pairFactor(a, b);
+[[gnu::target("avx2")]] BothWays viewBothAvx2(const ElementPoints& a, const ElementPoints& b) {
+    return viewBoth(a, b);
 }
 
-PairFactor pairFactorBaseline(const ElementPoints& a, const ElementPoints& b) { return pairFactor(a, b); }
+BothWays viewBothBaseline(const ElementPoints& a, const ElementPoints& b) {
+    return viewBoth(a, b);
+}
+
+std::array<double, kLanes> toArray(Lanes v) {
+    std::array<double, kLanes> out{};
+    for (int i = 0; i < kLanes; ++i) {
+        out[static_cast<std::size_t>(i)] = v[i];
+    }
+    return out;
+}
 
 }  // namespace
 
+LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLanes>& values, double mean) {
+    LinearFit fit;
+    fit.mean = mean;
+    fit.largest = *std::max_element(values.begin(), values.end());
+    const std::array<base::Vec2d, kLanes>& local = localPointCoordinates(element.cornerCount);
+    // Least squares over the cubature points; their coordinates are symmetric about 0.
+    constexpr std::size_t kCubaturePoints = 4;
+    double ss = 0.0;
+    double st = 0.0;
+    double tt = 0.0;
+    double sf = 0.0;
+    double tf = 0.0;
+    for (std::size_t i = 0; i < kCubaturePoints; ++i) {
+        ss += local[i].x * local[i].x;
+        st += local[i].x * local[i].y;
+        tt += local[i].y * local[i].y;
+        sf += local[i].x * values[i];
+        tf += local[i].y * values[i];
+    }
+    base::Vec2d slope = base::Vec2d(tt * sf - st * tf, ss * tf - st * sf) / (ss * tt - st * st);
+    double least = 0.0;
+    for (std::size_t i = kCubaturePoints; i < local.size(); ++i) {
+        least = std::min(least, glm::dot(slope, local[i]));
+    }
+    if (-least > mean) {
+        slope *= mean / -least;
+    }
+    for (std::size_t i = 0; i < local.size(); ++i) {
+        fit.deviation = std::max(fit.deviation, std::abs(values[i] - mean - glm::dot(slope, local[i])));
+    }
+    fit.gradient = mean > 0.0 ? slope / mean : base::Vec2d(0.0);
+    return fit;
+}
+
 PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
     static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
-    return hasAvx2 ? pairFactorAvx2(a, b) : pairFactorBaseline(a, b);
+    const BothWays views = hasAvx2 ? viewBothAvx2(a, b) : viewBothBaseline(a, b);
+    const OneWay& atA = views.atA;
+    const OneWay& atB = views.atB;
+    PairFactor result;
+    result.evaluations = views.evaluations;
+    // Points of the smaller element see the larger one's exact factor vary least, so they weigh more; where
+    // only one element is planar, its exact factor seen from the curved one counts alone.
+    double weightA = b.radius * b.radius / (a.radius * a.radius + b.radius * b.radius);
+    if (!views.far && a.isPlanar != b.isPlanar) {
+        weightA = b.isPlanar ? 1.0 : 0.0;
+    }
+    result.coupling = weightA * a.area * atA.mean + (1.0 - weightA) * b.area * atB.mean;
+    const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
+    if (highest <= 0.0) {
+        return result;
+    }
+    if (result.coupling <= 1e-3 * highest) {
+        // (Nearly) all cubature points are below the horizon but a corner is not: a rough value that the
+        // oracle will not trust.
+        constexpr double kCornerShare = 1.0 / 64.0;
+        result.coupling = kCornerShare * highest;
+        result.spreadA = result.spreadB = 1.0 / kCornerShare;
+        return result;
+    }
+    const double meanA = result.coupling / a.area;
+    const double meanB = result.coupling / b.area;
+    const LinearFit fitA = fitLinear(a, toArray(atA.values), meanA);
+    const LinearFit fitB = fitLinear(b, toArray(atB.values), meanB);
+    result.gradientA = fitA.gradient;
+    result.gradientB = fitB.gradient;
+    result.spreadA = fitA.deviation / meanA;
+    result.spreadB = fitB.deviation / meanB;
+    return result;
 }
 
 double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {

@@ -7,8 +7,9 @@ namespace fluxwalk::transport {
 
 namespace {
 
-// Error of a constant coefficient in power (MEASURED: power norm on all terms): the kernel's deviation over the receiver, the source's
-// spread of radiosity where it meets a varying kernel or a partly blocked view, and partial visibility itself.
+// Error of a constant coefficient in power (MEASURED: power norm on all terms): the kernel's deviation over
+// the receiver, the source's spread of radiosity where it meets a varying kernel or a partly blocked view,
+// and partial visibility itself.
 LinkAssessment assessBounded(const LinkBounds& k) {
     const float g = k.coupling;
     const float kernelA = g * k.radiosityB * k.spreadA * k.visibilityUpper;
@@ -36,8 +37,10 @@ LinkAssessment assess(OracleKind oracle, const LinkBounds& k) {
     const float transfer = k.coupling * k.visibility;
     const bool largerA = k.radiusA >= k.radiusB;
     switch (oracle) {
-        case OracleKind::bounded: return assessBounded(k);
-        case OracleKind::bfa: return {transfer * std::max(k.radiosityA, k.radiosityB) / k.sceneArea, largerA};
+        case OracleKind::bounded:
+            return assessBounded(k);
+        case OracleKind::bfa:
+            return {transfer * std::max(k.radiosityA, k.radiosityB) / k.sceneArea, largerA};
         case OracleKind::bf:
             return {std::max(transfer * k.radiosityB / k.areaA, transfer * k.radiosityA / k.areaB), largerA};
     }

@@ -6,7 +6,8 @@ namespace fluxwalk::transport {
 
 /// Decides which links are refined (ALGORITHMS 1.3).
 enum class OracleKind : std::uint8_t {
-    bounded,  ///< spread of kernel, visibility and radiosity, weighed by power (Schaefer section 1; Lischinski et al. 1994)
+    bounded,  ///< spread of kernel, visibility and radiosity, weighed by power (Schaefer section 1;
+              ///< Lischinski et al. 1994)
     bfa,      ///< B F A: the transferred power itself (Hanrahan et al. 1991)
     bf        ///< B F: the transferred irradiance itself
 };

@@ -51,8 +51,8 @@ bool readPolygon(const surface::Surface& surface, std::uint32_t patch, Polygon& 
     return true;
 }
 
-// Whether every line between two corners crosses the polygon's inside: then every line between any two points does, since the
-// crossing points of all lines lie in the hull of those of the corners.
+// Whether every line between two corners crosses the polygon's inside: then every line between any two points
+// does, since the crossing points of all lines lie in the hull of those of the corners.
 bool cutsAll(const Polygon& polygon, const hierarchy::Shape& a, const hierarchy::Shape& b, double tolerance) {
     const double offset = glm::dot(polygon.normal, polygon.corners[0]);
     std::array<double, 4> ha{};
@@ -82,7 +82,8 @@ bool cutsAll(const Polygon& polygon, const hierarchy::Shape& a, const hierarchy:
     }
     for (std::uint32_t i = 0; i < a.cornerCount; ++i) {
         for (std::uint32_t j = 0; j < b.cornerCount; ++j) {
-            const Vec3d p = Vec3d(a.corners[i]) + (ha[i] / (ha[i] - hb[j])) * (Vec3d(b.corners[j]) - Vec3d(a.corners[i]));
+            const Vec3d p =
+                Vec3d(a.corners[i]) + (ha[i] / (ha[i] - hb[j])) * (Vec3d(b.corners[j]) - Vec3d(a.corners[i]));
             for (std::uint32_t k = 0; k < polygon.count; ++k) {
                 if (glm::dot(inward[k], p - polygon.corners[k]) < tolerance) {
                     return false;
@@ -106,7 +107,8 @@ Shaft::Shaft(const hierarchy::Shape& a, const hierarchy::Shape& b, double tolera
             lower_[i] = upper_[i] = 0.5f * (lower_[i] + upper_[i]);
         }
     }
-    // In each axis plane the hull of two rectangles has one slanted edge for every quadrant whose extreme corners' line faces it.
+    // In each axis plane the hull of two rectangles has one slanted edge for every quadrant whose extreme
+    // corners' line faces it.
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
         for (const double si : {-1.0, 1.0}) {
@@ -148,14 +150,14 @@ void Shaft::addPlane(const Vec3d& normal, double offset) {
 }
 
 bool Shaft::excludes(const Vec3& lower, const Vec3& upper) const {
-    if (lower.x > upper_.x || lower.y > upper_.y || lower.z > upper_.z || upper.x < lower_.x || upper.y < lower_.y ||
-        upper.z < lower_.z) {
+    if (lower.x > upper_.x || lower.y > upper_.y || lower.z > upper_.z || upper.x < lower_.x ||
+        upper.y < lower_.y || upper.z < lower_.z) {
         return true;
     }
     for (std::size_t i = 0; i < planeCount_; ++i) {
         const Vec3& n = normals_[i];
-        const float nearest = n.x * (n.x > 0.0f ? lower.x : upper.x) + n.y * (n.y > 0.0f ? lower.y : upper.y) +
-                              n.z * (n.z > 0.0f ? lower.z : upper.z);
+        const float nearest = n.x * (n.x > 0.0f ? lower.x : upper.x) +
+                              n.y * (n.y > 0.0f ? lower.y : upper.y) + n.z * (n.z > 0.0f ? lower.z : upper.z);
         if (nearest >= offsets_[i]) {
             return true;
         }
@@ -167,7 +169,8 @@ bool Shaft::excludes(std::span<const Vec3d> polygon) const {
     for (std::size_t i = 0; i < planeCount_; ++i) {
         const Vec3d n(normals_[i]);
         const double offset = static_cast<double>(offsets_[i]);
-        if (std::all_of(polygon.begin(), polygon.end(), [&](const Vec3d& p) { return glm::dot(n, p) >= offset; })) {
+        if (std::all_of(polygon.begin(), polygon.end(),
+                        [&](const Vec3d& p) { return glm::dot(n, p) >= offset; })) {
             return true;
         }
     }
@@ -203,10 +206,12 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
         const auto [object, patch] = hierarchy.shaftItems()[node.item];
         const surface::Surface& surface = *hierarchy.scene().objects[object].surface;
         const bool isPlanar = surface.isPlanar(patch);
-        if (isPlanar && ((object == nameA.object && patch == nameA.patch) || (object == nameB.object && patch == nameB.patch))) {
+        if (isPlanar && ((object == nameA.object && patch == nameA.patch) ||
+                         (object == nameB.object && patch == nameB.patch))) {
             continue;
         }
-        const scene::AlphaMode alpha = hierarchy.scene().materials[hierarchy.scene().objects[object].material].alphaMode;
+        const scene::AlphaMode alpha =
+            hierarchy.scene().materials[hierarchy.scene().objects[object].material].alphaMode;
         if (alpha == scene::AlphaMode::blend) {
             continue;
         }
@@ -215,7 +220,8 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
             if (shaft.excludes(std::span<const Vec3d>(polygon.corners.data(), polygon.count))) {
                 continue;
             }
-            if (bothPlanar && alpha == scene::AlphaMode::opaque && cutsAll(polygon, shapeA, shapeB, tolerance)) {
+            if (bothPlanar && alpha == scene::AlphaMode::opaque &&
+                cutsAll(polygon, shapeA, shapeB, tolerance)) {
                 return ShaftContent::blocked;
             }
         }

@@ -40,8 +40,8 @@ class Shaft {
     std::size_t planeCount_ = 0;
 };
 
-/// Looks for occluders between two elements. Certain in both directions: `empty` and `blocked` need no rays, here and for all
-/// descendants of the pair.
+/// Looks for occluders between two elements. Certain in both directions: `empty` and `blocked` need no rays,
+/// here and for all descendants of the pair.
 ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b, double tolerance);
 
 }  // namespace fluxwalk::transport

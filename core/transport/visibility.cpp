@@ -105,7 +105,9 @@ struct Stage {
         blockedCount += isBlocked ? 1 : 0;
         ++count;
     }
-    double ratio() const { return weight > 0.0 ? seen / weight : 1.0 - static_cast<double>(blockedCount) / count; }
+    double ratio() const {
+        return weight > 0.0 ? seen / weight : 1.0 - static_cast<double>(blockedCount) / count;
+    }
 };
 
 Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const ElementSampler& b, unsigned side,
@@ -155,7 +157,8 @@ VisibilitySample toSample(const Stage& stage) {
 
 }  // namespace
 
-VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b) {
+VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
+                                  NodeId b) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
     if (keyA > keyB) {
@@ -177,8 +180,8 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     return sample;
 }
 
-VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId element,
-                                        NodeId source) {
+VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
+                                        NodeId element, NodeId source) {
     const std::uint64_t key = base::combine(hierarchy.key(element), hierarchy.key(source));
     const ElementSampler sampler(hierarchy, element);
     const bool isSky = hierarchy.kind(source) == hierarchy::NodeKind::sky;
@@ -230,7 +233,8 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
     VisibilitySample sample = toSample(whole);
     for (const Stage& part : quarter) {
         if (part.count > 0) {
-            sample.deviation = std::max(sample.deviation, std::abs(static_cast<float>(part.ratio()) - sample.mean));
+            sample.deviation =
+                std::max(sample.deviation, std::abs(static_cast<float>(part.ratio()) - sample.mean));
         }
     }
     return sample;

@@ -11,22 +11,23 @@ using base::NodeId;
 
 /// Fraction of the unoccluded transport that arrives, from rays between points of the original objects.
 struct VisibilitySample {
-    float mean = 1.0f;      ///< kernel-weighted
+    float mean = 1.0f;       ///< kernel-weighted
     float deviation = 0.0f;  ///< sky and lights: range over the quarters of the receiver
     std::uint16_t rays = 0;
-    bool isMixed = false;   ///< some were blocked and some were not
+    bool isMixed = false;  ///< some were blocked and some were not
 };
 
 /// Rays of the two stages: all alike after the first ends it, otherwise the second decides.
 inline constexpr unsigned kFirstRays = 16;
 inline constexpr unsigned kSecondRays = 64;
 
-/// Between two elements: stratified on both, every stratum of each used once, kernel-weighted. Keyed by the names of the pair, so
-/// the same for (a, b) and (b, a).
-VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b);
+/// Between two elements: stratified on both, every stratum of each used once, kernel-weighted. Keyed by the
+/// names of the pair, so the same for (a, b) and (b, a).
+VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
+                                  NodeId b);
 
 /// Between an element and a light source without area, or the sky.
-VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId element,
-                                        NodeId source);
+VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
+                                        NodeId element, NodeId source);
 
 }  // namespace fluxwalk::transport
