@@ -7,6 +7,10 @@ namespace fluxwalk::transport {
 
 namespace {
 
+/// An end that is this many times larger than the other is split first, whatever its share: otherwise tiny elements beside an edge
+/// would stay linked to a whole wall and see its mean only. (Cornell box, 32,000 links: displayed error 3.5 % without, 2.4 % with.)
+constexpr float kMaxSizeRatio = 3.0f;
+
 // Error of a constant coefficient in power (MEASURED: power norm on all terms): the kernel's deviation over
 // the receiver, the source's spread of radiosity where it meets a varying kernel or a partly blocked view,
 // and partial visibility itself.
@@ -28,7 +32,13 @@ LinkAssessment assessBounded(const LinkBounds& k) {
     const bool largerA = k.radiusA >= k.radiusB;
     const float gainA = std::max(kernelA, sourceA) + (largerA ? shadow : 0.0f);
     const float gainB = std::max(kernelB, sourceB) + (largerA ? 0.0f : shadow);
-    return {std::max(towardsA, towardsB) / k.sceneArea, gainA == gainB ? largerA : gainA > gainB};
+    bool splitA = gainA == gainB ? largerA : gainA > gainB;
+    if (k.radiusA > kMaxSizeRatio * k.radiusB) {
+        splitA = true;
+    } else if (k.radiusB > kMaxSizeRatio * k.radiusA) {
+        splitA = false;
+    }
+    return {std::max(towardsA, towardsB) / k.sceneArea, splitA};
 }
 
 }  // namespace
