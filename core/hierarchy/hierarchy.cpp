@@ -159,6 +159,10 @@ Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes,
 
 }  // namespace
 
+float Light::range() const {
+    return residual + base::channelMean(glm::abs(slopeS)) + base::channelMean(glm::abs(slopeT));
+}
+
 std::size_t Hierarchy::bytesPerNode() {
     return sizeof(NodeId) * 2 + sizeof(NodeKind) + sizeof(std::uint32_t) * 2 + sizeof(surface::Path) +
            sizeof(Shape) + sizeof(Light) + 1;
@@ -399,7 +403,7 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
                 patchSide_[i] = patchSide_[p];
                 path_[i] = surface::childPath(path_[p], c);
                 light_[i].irradiance = light_[p].irradiance;
-                light_[i].spread = 0.5f * light_[p].spread;
+                light_[i].residual = 0.25f * light_[p].residual;
                 const surface::Region part = surface::childRegion(surface, patch, whole, c);
                 if (mayHide_[p] != 0) {
                     const bool touches = touchesOther(

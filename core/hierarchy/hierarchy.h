@@ -57,8 +57,14 @@ struct Light {
     Rgb radiosity{0.0f};   ///< lm/m2
     Rgb irradiance{0.0f};  ///< mean over the exposed area, lux
     Rgb reflectance{0.0f};
-    Rgb emission{0.0f};   ///< lm/m2
-    float spread = 0.0f;  ///< half the range of the channel-mean radiosity within the node, lm/m2
+    Rgb emission{0.0f};  ///< lm/m2
+    /// Radiosity over an element: mean + slopeS local.x + slopeT local.y (local_frame.h).
+    Rgb slopeS{0.0f};
+    Rgb slopeT{0.0f};
+    float residual = 0.0f;  ///< largest deviation of the channel mean from that, lm/m2
+
+    /// Half the range of the channel-mean radiosity, at most, lm/m2.
+    float range() const;
 };
 
 class Hierarchy {

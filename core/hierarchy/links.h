@@ -57,7 +57,7 @@ struct Link {
     std::uint8_t spreadA =
         0;  ///< UncertaintyCode: deviation of F(x<-b) over a from a linear function, relative
     std::uint8_t spreadB = 0;
-    GradientCode gradientA;  ///< of F(x<-b) over a: receivers are linear, sources constant (ALGORITHMS 2.2)
+    GradientCode gradientA;  ///< of F(x<-b) over a in its local frame: ends are linear (ALGORITHMS 2.2)
     GradientCode gradientB;
 
     float visibility() const { return static_cast<float>(visibilityBits & 0x7fffu) * (1.0f / 32767.0f); }

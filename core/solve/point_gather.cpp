@@ -73,7 +73,7 @@ class PointGather {
         const bool isNear =
             !shape.isPlanar && glm::length(toSource) < 6.0 * static_cast<double>(shape.radius);
         if (!h_.isLeaf(source) &&
-            (isNear || static_cast<float>(factor) * light.spread > kOpenSpread * reference_)) {
+            (isNear || static_cast<float>(factor) * light.range() > kOpenSpread * reference_)) {
             for (unsigned c = 0; c < 4; ++c) {
                 add(h_.child(source, c), isOpen);
             }

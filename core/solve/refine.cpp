@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/hierarchy/local_frame.h"
 #include "core/transport/coefficients.h"
 #include "core/transport/visibility.h"
 
@@ -144,8 +145,10 @@ class Refinement {
         k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
         k.radiosityA = isOneWay ? 0.0f : base::channelMean(a.radiosity);
         k.radiosityB = base::channelMean(b.radiosity);
-        k.radiositySpreadA = isOneWay ? 0.0f : a.spread;
-        k.radiositySpreadB = b.spread;
+        k.residualA = isOneWay ? 0.0f : a.residual;
+        k.residualB = b.residual;
+        k.rangeA = isOneWay ? 0.0f : a.range();
+        k.rangeB = b.range();
         k.areaA = shapeA.exposedArea();
         k.areaB = isOneWay ? 1.0f : shapeB.exposedArea();
         k.radiusA = shapeA.radius;
@@ -274,11 +277,16 @@ class Refinement {
         counters.certificates += c.isOpen || c.isBlocked ? 1 : 0;
     }
 
-    static void setCoefficient(Link& link, const Coefficient& c) {
+    base::Vec2 inRegion(NodeId id, const base::Vec2& gradient) const {
+        const bool isBack = hierarchy_.kind(id) == NodeKind::element && hierarchy_.name(id).back;
+        return isBack ? hierarchy::mirrorGradient(hierarchy_.shape(id).cornerCount, gradient) : gradient;
+    }
+
+    void setCoefficient(Link& link, const Coefficient& c) const {
         link.coupling = c.coupling;
         link.setVisibility(c.visibility, c.isOpen);
-        link.gradientA = hierarchy::GradientCode::encode(c.gradientA);
-        link.gradientB = hierarchy::GradientCode::encode(c.gradientB);
+        link.gradientA = hierarchy::GradientCode::encode(inRegion(link.a, c.gradientA));
+        link.gradientB = hierarchy::GradientCode::encode(inRegion(link.b, c.gradientB));
         link.spreadA = hierarchy::UncertaintyCode::encode(c.spreadA);
         link.spreadB = hierarchy::UncertaintyCode::encode(c.spreadB);
     }

@@ -65,7 +65,7 @@ void seedRadiosity(Problem& problem, float ambient) {
         hierarchy::Light& light = h.light(id);
         light.irradiance = Rgb(ambient);
         light.radiosity = light.emission + light.reflectance * ambient;
-        light.spread = 0.5f * base::channelMean(light.reflectance) * ambient;
+        light.residual = 0.5f * base::channelMean(light.reflectance) * ambient;
     }
 }
 

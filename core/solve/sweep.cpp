@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/hierarchy/local_frame.h"
 
 namespace fluxwalk::solve {
 
@@ -49,8 +50,6 @@ Sweeper::Sweeper(Problem& problem) : problem_(problem) {
         blocks_.push_back(block);
     }
     gathered_.resize(h.nodeCount());
-    lowest_.resize(h.nodeCount());
-    highest_.resize(h.nodeCount());
 }
 
 double Sweeper::sweep() {
@@ -83,11 +82,18 @@ void Sweeper::gather(const Block& block) {
                 if (isScaled) {
                     transfer *= problem_.rowScale[base::index(source)];
                 }
-                const Rgb power = h.light(source).radiosity * transfer;
-                const base::Vec2 gradient = (isA ? link.gradientA : link.gradientB).decode();
+                const base::Vec2 here = (isA ? link.gradientA : link.gradientB).decode();
+                const base::Vec2 there = (isA ? link.gradientB : link.gradientA).decode();
+                const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(source).cornerCount);
+                // The kernel meets more of the source's light where both are larger.
+                const base::Vec2 lean(frame.xx * there.x + frame.xy * there.y,
+                                      frame.xy * there.x + frame.yy * there.y);
+                const hierarchy::Light& light = h.light(source);
+                const Rgb power =
+                    (light.radiosity + light.slopeS * lean.x + light.slopeT * lean.y) * transfer;
                 sum += Vec3d(power);
-                slopeS += power * gradient.x;
-                slopeT += power * gradient.y;
+                slopeS += power * here.x;
+                slopeT += power * here.y;
             }
             const double scale = isScaled ? static_cast<double>(problem_.rowScale[base::index(id)]) : 1.0;
             const double perArea = scale / static_cast<double>(h.shape(id).area);
@@ -95,13 +101,6 @@ void Sweeper::gather(const Block& block) {
             out.mean = Rgb(sum * perArea);
             out.s = slopeS * static_cast<float>(perArea);
             out.t = slopeT * static_cast<float>(perArea);
-            if (h.name(id).back) {
-                // Corners of a back side run the other way round than its region's.
-                if (h.shape(id).cornerCount == 3) {
-                    out.s -= out.t;
-                }
-                out.t = -out.t;
-            }
         }
     });
 }
@@ -112,14 +111,8 @@ Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
                                                const LinearIrradiance& from) const {
     const hierarchy::Hierarchy& h = problem_.hierarchy;
     using base::Vec2;
-    constexpr float kSixth = 1.0f / 6.0f;
-    constexpr float kThird = 1.0f / 3.0f;
-    constexpr std::array<std::array<float, 2>, 4> kQuad{
-        {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}};
-    constexpr std::array<std::array<float, 2>, 4> kTriangle{
-        {{-kSixth, -kSixth}, {kThird, -kSixth}, {-kSixth, kThird}, {0.0f, 0.0f}}};
-    const bool isTriangle = h.shape(parent).cornerCount == 3;
-    const auto& offsets = isTriangle ? kTriangle : kQuad;
+    const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(parent).cornerCount);
+    const auto& offsets = frame.quarters;
     Vec2 mean(0.0f);
     float area = 0.0f;
     for (unsigned c = 0; c < 4; ++c) {
@@ -128,8 +121,7 @@ Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
         area += part;
     }
     const Vec2 offset = Vec2(offsets[child][0], offsets[child][1]) - (area > 0.0f ? mean / area : Vec2(0.0f));
-    // The middle quarter of a triangle is turned round.
-    const float scale = isTriangle && child == 3 ? -0.5f : 0.5f;
+    const float scale = frame.quarterScale[child];
     const Rgb value = from.mean + offset.x * from.s + offset.y * from.t;
     return {value, scale * from.s, scale * from.t};
 }
@@ -157,7 +149,6 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
     }
     for (std::size_t i = block.end; i-- > block.begin;) {
         const NodeId id = order_[i];
-        const std::size_t slot = base::index(id);
         hierarchy::Light& light = h.light(id);
         if (h.isLeaf(id)) {
             const Rgb radiosity = light.emission + light.reflectance * light.irradiance;
@@ -165,41 +156,68 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
             change += area * static_cast<double>(base::channelMean(glm::abs(radiosity - light.radiosity)));
             power += area * static_cast<double>(base::channelMean(radiosity));
             light.radiosity = radiosity;
-            lowest_[slot] = highest_[slot] = base::channelMean(radiosity);
+            light.slopeS = light.reflectance * gathered_[base::index(id)].s;
+            light.slopeT = light.reflectance * gathered_[base::index(id)].t;
+        } else {
+            pull(id);
+        }
+    }
+}
+
+// Means by exposed area; slopes by projection of the quarters' linear functions onto one over the whole.
+void Sweeper::pull(NodeId id) {
+    hierarchy::Hierarchy& h = problem_.hierarchy;
+    hierarchy::Light& light = h.light(id);
+    const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(id).cornerCount);
+    Vec3d radiosity(0.0);
+    Vec3d irradiance(0.0);
+    double area = 0.0;
+    for (unsigned c = 0; c < 4; ++c) {
+        const NodeId child = h.child(id, c);
+        const double part = static_cast<double>(h.shape(child).exposedArea());
+        radiosity += part * Vec3d(h.light(child).radiosity);
+        irradiance += part * Vec3d(h.light(child).irradiance);
+        area += part;
+    }
+    if (area <= 0.0) {
+        light.radiosity = light.irradiance = light.slopeS = light.slopeT = Rgb(0.0f);
+        light.residual = 0.0f;
+        return;
+    }
+    light.radiosity = Rgb(radiosity / area);
+    light.irradiance = Rgb(irradiance / area);
+    Rgb momentX(0.0f);
+    Rgb momentY(0.0f);
+    Rgb innerS(0.0f);
+    Rgb innerT(0.0f);
+    for (unsigned c = 0; c < 4; ++c) {
+        const hierarchy::Light& part = h.light(h.child(id, c));
+        // Hidden quarters show nothing: they count as the mean.
+        const Rgb rise =
+            h.shape(h.child(id, c)).exposed > 0.0f ? part.radiosity - light.radiosity : Rgb(0.0f);
+        momentX += 0.25f * frame.quarters[c][0] * rise;
+        momentY += 0.25f * frame.quarters[c][1] * rise;
+        innerS += 0.25f * frame.quarterScale[c] * part.slopeS;
+        innerT += 0.25f * frame.quarterScale[c] * part.slopeT;
+    }
+    const float determinant = frame.xx * frame.yy - frame.xy * frame.xy;
+    light.slopeS = innerS + (frame.yy * momentX - frame.xy * momentY) / determinant;
+    light.slopeT = innerT + (frame.xx * momentY - frame.xy * momentX) / determinant;
+    light.residual = 0.0f;
+    for (unsigned c = 0; c < 4; ++c) {
+        const NodeId child = h.child(id, c);
+        if (h.shape(child).exposed <= 0.0f) {
             continue;
         }
-        Vec3d radiosity(0.0);
-        Vec3d irradiance(0.0);
-        double area = 0.0;
-        float lowest = INFINITY;
-        float highest = 0.0f;
-        for (unsigned c = 0; c < 4; ++c) {
-            const NodeId child = h.child(id, c);
-            const double part = static_cast<double>(h.shape(child).exposedArea());
-            if (part <= 0.0) {
-                continue;
-            }
-            radiosity += part * Vec3d(h.light(child).radiosity);
-            irradiance += part * Vec3d(h.light(child).irradiance);
-            area += part;
-            lowest = std::min(lowest, lowest_[base::index(child)]);
-            highest = std::max(highest, highest_[base::index(child)]);
-        }
-        if (area <= 0.0) {
-            lowest = 0.0f;
-            area = 1.0;
-        }
-        light.radiosity = Rgb(radiosity / area);
-        light.irradiance = Rgb(irradiance / area);
-        light.spread = 0.5f * (highest - lowest);
-        lowest_[slot] = lowest;
-        highest_[slot] = highest;
-        for (unsigned c = 0; c < 4; ++c) {
-            // A leaf's own range is not resolved: about half of what its family shows.
-            const NodeId child = h.child(id, c);
-            if (h.isLeaf(child)) {
-                h.light(child).spread = 0.5f * light.spread;
-            }
+        const Rgb linear =
+            light.radiosity + frame.quarters[c][0] * light.slopeS + frame.quarters[c][1] * light.slopeT;
+        const float off = std::abs(base::channelMean(h.light(child).radiosity - linear));
+        light.residual = std::max(light.residual, off + (h.isLeaf(child) ? 0.0f : h.light(child).residual));
+    }
+    for (unsigned c = 0; c < 4; ++c) {
+        // A leaf's own deviation is not resolved: a smooth function's falls with the square of the size.
+        if (h.isLeaf(h.child(id, c))) {
+            h.light(h.child(id, c)).residual = 0.25f * light.residual;
         }
     }
 }

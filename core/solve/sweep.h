@@ -24,6 +24,7 @@ class Sweeper {
 
     void gather(const Block& block);
     void pushPull(const Block& block, double& change, double& power);
+    void pull(NodeId id);
 
     /// Irradiance over an element: mean + s * local.x + t * local.y (transport::localPointCoordinates, in the
     /// region's orientation).
@@ -39,8 +40,6 @@ class Sweeper {
         gathered_;               ///< by node: through its own links, then with that of all ancestors
     std::vector<NodeId> order_;  ///< nodes of the elements' trees, parents before children
     std::vector<Block> blocks_;
-    std::vector<float> lowest_;  ///< of the channel-mean radiosity below a node, in order_
-    std::vector<float> highest_;
 };
 
 }  // namespace fluxwalk::solve

@@ -7,8 +7,9 @@ namespace fluxwalk::transport {
 
 namespace {
 
-/// An end that is this many times larger than the other is split first, whatever its share: otherwise tiny elements beside an edge
-/// would stay linked to a whole wall and see its mean only. (Cornell box, 32,000 links: displayed error 3.5 % without, 2.4 % with.)
+/// An end that is this many times larger than the other is split first, whatever its share: otherwise tiny
+/// elements beside an edge would stay linked to a whole wall and see its mean only. (Cornell box, 32,000
+/// links: displayed error 3.5 % without, 2.4 % with.)
 constexpr float kMaxSizeRatio = 3.0f;
 
 // Error of a constant coefficient in power (MEASURED: power norm on all terms): the kernel's deviation over
@@ -21,8 +22,8 @@ LinkAssessment assessBounded(const LinkBounds& k) {
     const float v = k.visibility;
     const float partial = k.isMixed ? std::sqrt(std::max(0.0f, v * (1.0f - v))) : 0.0f;
     const float gap = std::max(k.distance, 1e-20f);
-    const float sourceA = g * k.radiositySpreadA * std::max(v * std::min(1.0f, k.radiusA / gap), partial);
-    const float sourceB = g * k.radiositySpreadB * std::max(v * std::min(1.0f, k.radiusB / gap), partial);
+    const float sourceA = g * std::max(k.residualA * v * std::min(1.0f, k.radiusA / gap), k.rangeA * partial);
+    const float sourceB = g * std::max(k.residualB * v * std::min(1.0f, k.radiusB / gap), k.rangeB * partial);
     const float shadowA = g * k.radiosityB * partial;
     const float shadowB = g * k.radiosityA * partial;
     const float towardsA = kernelA + sourceB + shadowA;

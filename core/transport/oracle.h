@@ -22,8 +22,10 @@ struct LinkBounds {
     float spreadB = 0.0f;
     float radiosityA = 0.0f;
     float radiosityB = 0.0f;
-    float radiositySpreadA = 0.0f;  ///< half the range within the node
-    float radiositySpreadB = 0.0f;
+    float residualA = 0.0f;  ///< largest deviation of the radiosity from a linear function over the node
+    float residualB = 0.0f;
+    float rangeA = 0.0f;  ///< half the range of the radiosity over the node
+    float rangeB = 0.0f;
     float areaA = 1.0f;
     float areaB = 1.0f;
     float radiusA = 1.0f;

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/vec.h"
+
+/// Coordinates within an element in which its irradiance and radiosity are linear, 0 in the middle. Quads: (2
+/// s - 1, 2 t - 1) of the region's unit square. Triangles: (u - 1/3, v - 1/3) with u, v the barycentric
+/// weights of the region's corners 1 and 2.
+namespace fluxwalk::hierarchy {
+
+struct LocalFrame {
+    /// Middles of the four quarters, and the factor from a quarter's coordinates to the whole's.
+    std::array<std::array<float, 2>, 4> quarters;
+    std::array<float, 4> quarterScale;
+    /// Means over the element of x x, x y (= that of y x) and y y, where x, y are the coordinates.
+    float xx;
+    float xy;
+    float yy;
+
+    /// Mean over the element of (g . local)(h . local).
+    float product(const base::Vec2& g, const base::Vec2& h) const {
+        return g.x * (xx * h.x + xy * h.y) + g.y * (xy * h.x + yy * h.y);
+    }
+};
+
+inline constexpr LocalFrame kQuadFrame{{{{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}},
+                                       {0.5f, 0.5f, 0.5f, 0.5f},
+                                       1.0f / 3.0f,
+                                       0.0f,
+                                       1.0f / 3.0f};
+/// The middle quarter of a triangle is turned round.
+inline constexpr LocalFrame kTriangleFrame{
+    {{{-1.0f / 6.0f, -1.0f / 6.0f}, {1.0f / 3.0f, -1.0f / 6.0f}, {-1.0f / 6.0f, 1.0f / 3.0f}, {0.0f, 0.0f}}},
+    {0.5f, 0.5f, 0.5f, -0.5f},
+    1.0f / 18.0f,
+    -1.0f / 36.0f,
+    1.0f / 18.0f};
+
+constexpr const LocalFrame& localFrame(std::uint32_t cornerCount) {
+    return cornerCount == 3 ? kTriangleFrame : kQuadFrame;
+}
+
+/// A gradient in the order of a back side's corners, which run the other way round, in the order of its
+/// region's.
+inline base::Vec2 mirrorGradient(std::uint32_t cornerCount, const base::Vec2& g) {
+    return cornerCount == 3 ? base::Vec2(g.x - g.y, -g.y) : base::Vec2(g.x, -g.y);
+}
+
+}  // namespace fluxwalk::hierarchy
