@@ -24,7 +24,7 @@ Scene buildPair(std::string name, float reflectance, const Quad& source, const Q
 Scene buildParallelSquares(double gap, float reflectance) {
     const Quads both = boxFaces({0, 0, 0}, {1, gap, 1}, kTop | kBottom, true);
     Scene scene = buildPair("squares-parallel", reflectance, both[1], both[0]);
-    addCamera(scene, "side", {0.5, 0.5 * gap, -1.0 - gap}, {0.5, 0.5 * gap, 0.5}, 50.0);
+    addCamera(scene, "side", {1.5, 0.6 + 0.25 * gap, -1.0}, {0.55, 0.4 * gap, 0.4}, 50.0);
     return scene;
 }
 
@@ -35,7 +35,7 @@ Scene buildWedge(double degrees, float reflectance) {
     const Quad receiver{Vec3d(0, 0, 0), Vec3d(0, 0, 1), Vec3d(1, 0, 1), Vec3d(1, 0, 0)};
     const Quad source{Vec3d(0, 0, 0), along, along + edge, edge};
     Scene scene = buildPair("wedge", reflectance, source, receiver);
-    addCamera(scene, "side", {2.6, 1.0, -1.0}, {0.5, 0.3, 0.5}, 45.0);
+    addCamera(scene, "side", {1.7, 0.7, -0.6}, {0.5, 0.2, 0.5}, 45.0);
     return scene;
 }
 
@@ -60,7 +60,7 @@ Scene buildStrips(double length, unsigned segments, float reflectance) {
     const Quads both = boxFaces({0, 0, 0}, {1, 1, length}, kTop | kBottom, true);
     addPolygons(scene, "lower plate", glowing, gridOf(both[0], 1, segments));
     addPolygons(scene, "upper plate", glowing, gridOf(both[1], 1, segments));
-    addCamera(scene, "end", {2.5, 0.7, -2.0}, {0.5, 0.5, 3.0}, 45.0);
+    addCamera(scene, "end", {0.5, 0.6, -0.6}, {0.5, 0.45, 3.0}, 60.0);
     return scene;
 }
 

@@ -43,9 +43,12 @@ Quads gridOf(const Quad& quad, unsigned columns, unsigned rows) {
     return cells;
 }
 
-Quads operator+(Quads a, const Quads& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
+Quads join(std::initializer_list<Quads> parts) {
+    Quads all;
+    for (const Quads& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
 }
 
 void addPolygons(Scene& scene, std::string name, std::uint32_t material, const Quads& quads) {

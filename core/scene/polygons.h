@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ Quads boxFaces(const Vec3d& lower, const Vec3d& upper, unsigned faces = kAllFace
 Quads gridOf(const Quad& quad, unsigned columns, unsigned rows);
 
 /// Joins lists of quads in order.
-Quads operator+(Quads a, const Quads& b);
+Quads join(std::initializer_list<Quads> parts);
 
 /// Adds an object of planar quads; each quad becomes one patch, in order, unless it is not planar (then two:
 /// its diagonal runs from corner 0 to corner 2).

@@ -27,32 +27,33 @@ Quads wallWithDoor(double x, bool facesMinusX) {
             }
             const Vec3d lower(x, kY[j], kZ[i]);
             const Vec3d upper(x, kY[j + 1], kZ[i + 1]);
-            parts = parts + boxFaces(lower, upper, facesMinusX ? kLeft : kRight);
+            parts.push_back(boxFaces(lower, upper, facesMinusX ? kLeft : kRight).front());
         }
     }
     return parts;
 }
 
 Quads floorStrips(double x0, double x1) {
-    return boxFaces({x0, 0, 0}, {x1, 0, kDoorNear}, kTop) +
-           boxFaces({x0, 0, kDoorNear}, {x1, 0, kDoorFar}, kTop) +
-           boxFaces({x0, 0, kDoorFar}, {x1, 0, kRoomWidth}, kTop);
+    return join({boxFaces({x0, 0, 0}, {x1, 0, kDoorNear}, kTop),
+                 boxFaces({x0, 0, kDoorNear}, {x1, 0, kDoorFar}, kTop),
+                 boxFaces({x0, 0, kDoorFar}, {x1, 0, kRoomWidth}, kTop)});
 }
 
 void addShell(Scene& scene, std::uint32_t walls, std::uint32_t floor, std::uint32_t ceiling) {
     addPolygons(scene, "floor", floor,
-                floorStrips(0, kRoomLength) +
-                    boxFaces({kRoomLength, 0, kDoorNear}, {kSecondRoom, 0, kDoorFar}, kTop) +
-                    floorStrips(kSecondRoom, kSecondRoom + kRoomLength));
+                join({floorStrips(0, kRoomLength),
+                      boxFaces({kRoomLength, 0, kDoorNear}, {kSecondRoom, 0, kDoorFar}, kTop),
+                      floorStrips(kSecondRoom, kSecondRoom + kRoomLength)}));
     const Vec3d size(kRoomLength, kRoomHeight, kRoomWidth);
     const Vec3d second(kSecondRoom, 0, 0);
     addPolygons(scene, "ceiling", ceiling,
-                boxFaces(Vec3d(0.0), size, kTop, true) + boxFaces(second, second + size, kTop, true));
-    addPolygons(scene, "walls of the lit room", walls,
-                boxFaces(Vec3d(0.0), size, kLeft | kNear | kFar, true) + wallWithDoor(kRoomLength, true));
+                join({boxFaces(Vec3d(0.0), size, kTop, true), boxFaces(second, second + size, kTop, true)}));
     addPolygons(
-        scene, "walls of the dark room", walls,
-        boxFaces(second, second + size, kRight | kNear | kFar, true) + wallWithDoor(kSecondRoom, false));
+        scene, "walls of the lit room", walls,
+        join({boxFaces(Vec3d(0.0), size, kLeft | kNear | kFar, true), wallWithDoor(kRoomLength, true)}));
+    addPolygons(scene, "walls of the dark room", walls,
+                join({boxFaces(second, second + size, kRight | kNear | kFar, true),
+                      wallWithDoor(kSecondRoom, false)}));
     addPolygons(scene, "door frame", ceiling,
                 boxFaces({kRoomLength, 0, kDoorNear}, {kSecondRoom, kDoorHeight, kDoorFar},
                          kNear | kFar | kTop, true));
@@ -64,29 +65,29 @@ Quads table(const Vec3d& corner, const Vec3d& size, double thickness, double leg
     Quads quads = boxFaces({corner.x, under, corner.z}, upper);
     for (const double x : {corner.x + leg, upper.x - 2 * leg}) {
         for (const double z : {corner.z + leg, upper.z - 2 * leg}) {
-            quads = quads + boxFaces({x, corner.y, z}, {x + leg, under, z + leg}, kAround);
+            quads = join({quads, boxFaces({x, corner.y, z}, {x + leg, under, z + leg}, kAround)});
         }
     }
     return quads;
 }
 
 Quads chair(const Vec3d& corner) {
-    return table(corner, {0.42, 0.45, 0.42}, 0.04, 0.035) +
-           boxFaces(corner + Vec3d(0.0, 0.45, 0.0), corner + Vec3d(0.04, 0.92, 0.42), kStanding);
+    return join({table(corner, {0.42, 0.45, 0.42}, 0.04, 0.035),
+                 boxFaces(corner + Vec3d(0.0, 0.45, 0.0), corner + Vec3d(0.04, 0.92, 0.42), kStanding)});
 }
 
 // Open at +z: back, sides and boards.
 Quads bookcase(const Vec3d& corner, const Vec3d& size, unsigned boards) {
     constexpr double kBoard = 0.025;
     const Vec3d upper = corner + size;
-    Quads quads =
-        boxFaces(corner, {upper.x, upper.y, corner.z + kBoard}, kStanding) +
-        boxFaces({corner.x, corner.y, corner.z + kBoard}, {corner.x + kBoard, upper.y, upper.z}, kStanding) +
-        boxFaces({upper.x - kBoard, corner.y, corner.z + kBoard}, {upper.x, upper.y, upper.z}, kStanding);
+    Quads quads = join(
+        {boxFaces(corner, {upper.x, upper.y, corner.z + kBoard}, kStanding),
+         boxFaces({corner.x, corner.y, corner.z + kBoard}, {corner.x + kBoard, upper.y, upper.z}, kStanding),
+         boxFaces({upper.x - kBoard, corner.y, corner.z + kBoard}, upper, kStanding)});
     for (unsigned i = 0; i < boards; ++i) {
         const double y = corner.y + (size.y - kBoard) * (i + 1) / boards;
-        quads = quads + boxFaces({corner.x + kBoard, y, corner.z + kBoard},
-                                 {upper.x - kBoard, y + kBoard, upper.z}, kTop | kBottom | kFar);
+        quads = join({quads, boxFaces({corner.x + kBoard, y, corner.z + kBoard},
+                                      {upper.x - kBoard, y + kBoard, upper.z}, kTop | kBottom | kFar)});
     }
     return quads;
 }
@@ -96,7 +97,7 @@ Quads openDoor() {
     constexpr double kThickness = 0.04;
     const Vec3d hinge(kSecondRoom, 0.01, kDoorFar + 0.02);
     const Vec3d along(0.80, 0.0, 0.38);
-    const Vec3d across = kThickness * glm::normalize(Vec3d(-along.z, 0.0, along.x));
+    const Vec3d across = kThickness * glm::normalize(Vec3d(along.z, 0.0, -along.x));
     const Vec3d up(0.0, kDoorHeight - 0.02, 0.0);
     const Vec3d a = hinge + 0.05 * along;
     const Vec3d b = hinge + along;

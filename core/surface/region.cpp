@@ -71,7 +71,7 @@ RegionPoint mapToRegion(const Region& region, const Vec2d& st) {
         const double root = std::sqrt(st.x);
         const double u = 1.0 - root;
         const double v = st.y * root;
-        return {(1.0 - u - v) * c[0] + u * c[1] + v * c[2], std::abs(cross(c[1] - c[0], c[2] - c[0]))};
+        return {(1.0 - u - v) * c[0] + u * c[1] + v * c[2], 0.5 * std::abs(cross(c[1] - c[0], c[2] - c[0]))};
     }
     const double s = st.x;
     const double t = st.y;

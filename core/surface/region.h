@@ -49,7 +49,7 @@ struct RegionPoint {
 };
 
 /// Maps the unit square onto a region: bilinearly for quads; for triangles by the area-preserving square-root
-/// map (s,t) -> (1 - sqrt s, t sqrt s), whose measure is twice the triangle's area everywhere.
+/// map (s,t) -> (1 - sqrt s, t sqrt s), whose measure is the triangle's area everywhere.
 RegionPoint mapToRegion(const Region& region, const Vec2d& st);
 
 /// Index of the child quarter that holds `uv`.

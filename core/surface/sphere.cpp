@@ -10,27 +10,6 @@ namespace {
 
 using base::kPi;
 
-/// Axes of an octant (pole, first, second), counter-clockwise seen from outside. Patches 0..3 are north, 4..7
-/// south; within each half the octants follow the longitude from +X over -Z, as texture coordinates do.
-struct Octant {
-    Vec3d pole;
-    Vec3d first;
-    Vec3d second;
-};
-
-Octant octant(std::uint32_t patch) {
-    constexpr std::array<std::array<double, 2>, 4> kEquator{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
-    const std::uint32_t quarter = patch & 3u;
-    const auto& a = kEquator[quarter];
-    const auto& b = kEquator[(quarter + 1) & 3u];
-    const Vec3d from(a[0], 0, a[1]);
-    const Vec3d to(b[0], 0, b[1]);
-    if (patch < 4) {
-        return {{0, 1, 0}, from, to};
-    }
-    return {{0, -1, 0}, to, from};
-}
-
 base::Mat4d similarity(const Vec3d& center, double radius) {
     base::Mat4d m(radius);
     m[3] = glm::dvec4(center, 1.0);
@@ -52,7 +31,8 @@ Sphere::Sphere(const base::Mat4d& worldFromUnit, bool inside)
       center_(worldFromUnit[3]),
       determinant_(std::abs(glm::determinant(linear_))),
       radius_(0.0),
-      inside_(inside) {
+      inside_(inside),
+      clockwise_(inside != (glm::determinant(linear_) < 0.0)) {
     const double r = glm::length(linear_[0]);
     const double skew = std::abs(glm::dot(linear_[0], linear_[1])) +
                         std::abs(glm::dot(linear_[1], linear_[2])) +
@@ -65,6 +45,18 @@ Sphere::Sphere(const base::Mat4d& worldFromUnit, bool inside)
 
 Sphere::Sphere(const Vec3d& center, double radius, bool inside)
     : Sphere(similarity(center, radius), inside) {}
+
+Sphere::Octant Sphere::octant(std::uint32_t patch) const {
+    constexpr std::array<std::array<double, 2>, 4> kEquator{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
+    const std::uint32_t quarter = patch & 3u;
+    const auto& a = kEquator[quarter];
+    const auto& b = kEquator[(quarter + 1) & 3u];
+    const Vec3d from(a[0], 0, a[1]);
+    const Vec3d to(b[0], 0, b[1]);
+    const bool north = patch < 4;
+    const Vec3d pole(0, north ? 1 : -1, 0);
+    return north != clockwise_ ? Octant{pole, from, to} : Octant{pole, to, from};
+}
 
 Vec3d Sphere::directionAt(std::uint32_t patch, const Vec2d& uv) const {
     const Octant o = octant(patch);
@@ -112,10 +104,10 @@ Vec2d Sphere::locate(std::uint32_t patch, const Vec3d& position) const {
 Vec2d Sphere::texcoord(std::uint32_t patch, const Vec2d& uv, unsigned /*set*/) const {
     const Octant o = octant(patch);
     const Vec3d unit = directionAt(patch, uv);
-    const bool north = patch < 4;
+    const bool eastward = (patch < 4) != clockwise_;
     // Longitude within the quarter, so that no patch sees the seam; at a pole the quarter's middle.
-    const double along = glm::dot(unit, north ? o.first : o.second);
-    const double across = glm::dot(unit, north ? o.second : o.first);
+    const double along = glm::dot(unit, eastward ? o.first : o.second);
+    const double across = glm::dot(unit, eastward ? o.second : o.first);
     const double quarter = along + across > 0.0 ? std::atan2(across, along) : 0.25 * kPi;
     const double longitude = 0.5 + (static_cast<double>(patch & 3u) * 0.5 * kPi + quarter) / (2.0 * kPi);
     return {patch % 4 >= 2 ? longitude - 1.0 : longitude, std::acos(std::clamp(unit.y, -1.0, 1.0)) / kPi};

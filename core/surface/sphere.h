@@ -31,6 +31,14 @@ class Sphere final : public Surface {
     Box bounds() const override;
 
   private:
+    /// Axes of an octant, counter-clockwise seen from the front. Patches 0..3 are north, 4..7 south; within
+    /// each half the octants follow the longitude from +X over -Z, as texture coordinates do.
+    struct Octant {
+        Vec3d pole;
+        Vec3d first;
+        Vec3d second;
+    };
+    Octant octant(std::uint32_t patch) const;
     Vec3d directionAt(std::uint32_t patch, const Vec2d& uv) const;
     Vec3d toWorld(const Vec3d& unit) const { return linear_ * unit + center_; }
     Vec3d normalAt(const Vec3d& unit) const;
@@ -43,6 +51,8 @@ class Sphere final : public Surface {
     /// Radius where the map is a similarity, 0 otherwise.
     double radius_;
     bool inside_;
+    /// Whether the octants' natural order runs clockwise seen from the front: inside, or under a mirror.
+    bool clockwise_;
 };
 
 }  // namespace fluxwalk::surface

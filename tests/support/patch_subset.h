@@ -14,7 +14,9 @@ class PatchSubset final : public surface::Surface {
         : whole_(std::move(whole)), patches_(std::move(patches)) {}
 
     std::uint32_t patchCount() const override { return static_cast<std::uint32_t>(patches_.size()); }
-    surface::PatchDomain domain(std::uint32_t patch) const override { return whole_->domain(patches_[patch]); }
+    surface::PatchDomain domain(std::uint32_t patch) const override {
+        return whole_->domain(patches_[patch]);
+    }
     surface::SurfacePoint evaluate(std::uint32_t patch, const base::Vec2d& uv) const override {
         return whole_->evaluate(patches_[patch], uv);
     }
