@@ -10,11 +10,12 @@ namespace fluxwalk::display {
 
 namespace {
 
-/// How far a vertex may leave the range of its leaves, as a part of the range that these and their neighbours
-/// span: little where leaves surround it, so that no halos follow shadows' edges; more at borders, where
-/// values are truly extrapolated. (Chosen by display error on known irradiances, with the weights below.)
+/// How far a vertex may leave the range of its leaves and their neighbours, as a part of that range: little
+/// where leaves surround it, so that no halos follow shadows' edges; more at borders, where a large leaf
+/// beside small ones is extrapolated as far as to its neighbours on the other side. (Chosen by display error
+/// on known irradiances, with the weights below.)
 constexpr float kInnerMargin = 0.1f;
-constexpr float kBorderMargin = 0.5f;
+constexpr float kBorderMargin = 1.0f;
 /// Length of the mean direction from a vertex to its leaves on a straight border of square leaves.
 constexpr float kBorderBias = 0.7071f;
 /// Added to the diagonal of the normal equations, relative to their trace: leaves in one row have no gradient
@@ -206,8 +207,6 @@ class Reconstruction {
         // Sums of differences: those of a constant vanish exactly.
         Rgb sum(0.0f);
         Vec3 directions(0.0f);
-        Rgb low = first.irradiance;
-        Rgb high = first.irradiance;
         Rgb least = first.least;
         Rgb most = first.most;
         for (const std::uint32_t s : leaves) {
@@ -216,8 +215,6 @@ class Reconstruction {
             const Vec3 d = sample.center - p;
             const float squared = glm::dot(d, d);
             directions += squared > 0.0f ? d / std::sqrt(squared) : Vec3(0.0f);
-            low = glm::min(low, sample.irradiance);
-            high = glm::max(high, sample.irradiance);
             least = glm::min(least, sample.least);
             most = glm::max(most, sample.most);
         }
@@ -225,7 +222,7 @@ class Reconstruction {
         const float bias = std::min(1.0f, glm::length(directions) / (kBorderBias * count));
         const Rgb margin = (kInnerMargin + (kBorderMargin - kInnerMargin) * bias) * (most - least);
         const Rgb mean = first.irradiance + sum / count;
-        return glm::max(glm::clamp(mean, low - margin, high + margin), Rgb(0.0f));
+        return glm::max(glm::clamp(mean, least - margin, most + margin), Rgb(0.0f));
     }
 
     // The leaf's mean; in quarters of a leaf, what the leaf extrapolates to within the quarter's own corners.
