@@ -108,13 +108,20 @@ TEST(VertexValues, FacesWithinTheCreaseAngleShareValuesButNotNormals) {
     }
 }
 
-TEST(VertexValues, StayWithinReasonAtShadowsAndAreNeverNegative) {
+TEST(VertexValues, ShadowEdgesHaveNoHalosAndValuesAreNeverNegative) {
     const auto floor = makeFloor(1, 4.0f);
-    const Irradiance shadow = [](const Vec3d& p) { return 0.8 * p.x + 0.6 * p.z > 2.5 ? 100.0 : 0.0; };
-    const auto meshes = build(*floor, makeLeaves(*floor, shadow, SplitByRange{*floor, shadow, 8.0, 7}));
-    for (const Rgb& value : meshes.meshes[0]->irradiance) {
-        EXPECT_GE(value.r, 0.0f);
-        EXPECT_LE(value.r, 130.0f);
+    for (const double dark : {0.0, 10.0}) {
+        const Irradiance shadow = [&](const Vec3d& p) { return 0.8 * p.x + 0.6 * p.z > 2.5 ? 100.0 : dark; };
+        const auto meshes = build(*floor, makeLeaves(*floor, shadow, SplitByRange{*floor, shadow, 8.0, 7}));
+        const scene::LitMesh& mesh = *meshes.meshes[0];
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const Vec3& p = mesh.positions[i];
+            EXPECT_GE(mesh.irradiance[i].r, 0.0f);
+            if (p.x > 0.5f && p.z > 0.5f && p.x < 3.5f && p.z < 3.5f) {
+                EXPECT_GE(mesh.irradiance[i].r, 0.949f * static_cast<float>(dark));
+                EXPECT_LE(mesh.irradiance[i].r, 110.01f);
+            }
+        }
     }
 }
 
