@@ -4,19 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "core/base/check.h"
 
 namespace fluxwalk::display {
 
 namespace {
 
-/// How far a vertex may leave the range of its leaves, as a part of the range that these and their neighbours
-/// span: little where leaves surround it, so that no halos follow shadows' edges; more at borders, where
-/// values are truly extrapolated. (Chosen by display error on known irradiances, with the weights below.)
-constexpr float kInnerMargin = 0.1f;
-constexpr float kBorderMargin = 0.5f;
-/// Length of the mean direction from a vertex to its leaves on a straight border of square leaves.
+/// How far a vertex may leave the range of its leaves and their neighbours: upwards by a part of that range,
+/// downwards by less, and no more than a part of the least value, as dark fringes beside shadows' edges would
+/// be seen. (Chosen by display error on known irradiances, with the weights below, and by eye.)
+constexpr float kUpperMargin = 0.1f;
+constexpr float kLowerMargin = 0.05f;
+/// Length of the mean direction from a vertex to its cells: on a straight border of squares, and where it
+/// begins to count as a border (hanging vertices have 0.14).
 constexpr float kBorderBias = 0.7071f;
+constexpr float kInnerBias = 0.28f;
 /// Added to the diagonal of the normal equations, relative to their trace: leaves in one row have no gradient
 /// across it.
 constexpr float kRidge = 1e-6f;
@@ -30,7 +34,7 @@ struct Sample {
     float size = 0.0f;  ///< metres
     Rgb irradiance{};
     std::array<Rgb, 2> gradient{};  ///< lux per metre along tangent and bitangent
-    /// Range of the leaf and its neighbours.
+    /// Range of the leaf, its neighbours, and what it extrapolates to on borders.
     Rgb least{};
     Rgb most{};
     std::uint32_t firstCell = 0;
@@ -46,6 +50,11 @@ struct Sample {
     }
 };
 
+Vec3 directionTo(const Vec3& d) {
+    const float squared = glm::dot(d, d);
+    return squared > 0.0f ? d / std::sqrt(squared) : Vec3(0.0f);
+}
+
 class Reconstruction {
   public:
     Reconstruction(std::span<const Cell> cells, const MeshVertices& mesh, std::span<const Rgb> sources)
@@ -57,6 +66,7 @@ class Reconstruction {
     MeshValues run() {
         for (std::uint32_t s = 0; s < samples_.size(); ++s) {
             fitGradient(s);
+            widenAtBorders(samples_[s]);
         }
         MeshValues out;
         out.values.reserve(mesh_.pointOfValue.size());
@@ -73,6 +83,11 @@ class Reconstruction {
   private:
     Vec3 positionOf(std::uint32_t point) const { return Vec3(mesh_.positions[point] - origin_); }
     Vec3 corner(const Cell& cell, unsigned i) const { return positionOf(cell.points[i]); }
+
+    Vec3 middleOfCell(const Cell& cell) const {
+        const Vec3 three = corner(cell, 0) + corner(cell, 1) + corner(cell, 2);
+        return cell.cornerCount == 3 ? three / 3.0f : 0.25f * (three + corner(cell, 3));
+    }
 
     void makeSamples(std::span<const Rgb> sources) {
         samples_.resize(sources.size());
@@ -124,7 +139,7 @@ class Reconstruction {
         }
     }
 
-    // Leaves around each value, in one array.
+    // Leaves around each value, in one array, and whether cells surround it.
     void findIncident() {
         const std::size_t valueCount = mesh_.pointOfValue.size();
         begin_.assign(valueCount + 1, 0);
@@ -136,14 +151,22 @@ class Reconstruction {
         }
         incident_.resize(begin_[valueCount]);
         end_.assign(begin_.begin(), begin_.end() - 1);
+        std::vector<Vec3> towardsCells(valueCount, Vec3(0.0f));
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             const std::uint32_t source = cells_[i].source;
+            const Vec3 center = middleOfCell(cells_[i]);
             forValues(i, [&](std::uint32_t v) {
+                towardsCells[v] += directionTo(center - positionOf(mesh_.pointOfValue[v]));
                 // Cells of one leaf follow each other: it was added last if it was added at all.
                 if (end_[v] == begin_[v] || incident_[end_[v] - 1] != source) {
                     incident_[end_[v]++] = source;
                 }
             });
+        }
+        border_.resize(valueCount);
+        for (std::size_t v = 0; v < valueCount; ++v) {
+            const float bias = glm::length(towardsCells[v]) / static_cast<float>(begin_[v + 1] - begin_[v]);
+            border_[v] = glm::clamp((bias - kInnerBias) / (kBorderBias - kInnerBias), 0.0f, 1.0f);
         }
     }
 
@@ -199,33 +222,44 @@ class Reconstruction {
         }
     }
 
+    // On borders a leaf may be extrapolated by as much as its neighbourhood spans: a large leaf beside small
+    // ones is as wide as the way to its neighbours on the other side.
+    void widenAtBorders(Sample& sample) {
+        const Rgb range = sample.most - sample.least;
+        const Rgb least = sample.least;
+        const Rgb most = sample.most;
+        for (std::uint32_t cell = sample.firstCell; cell < sample.lastCell; ++cell) {
+            forValues(cell, [&](std::uint32_t v) {
+                if (border_[v] > 0.0f) {
+                    const Rgb reach = border_[v] * range;
+                    const Rgb value =
+                        glm::clamp(sample.irradiance + sample.rise(positionOf(mesh_.pointOfValue[v])),
+                                   least - reach, most + reach);
+                    sample.least = glm::min(sample.least, value);
+                    sample.most = glm::max(sample.most, value);
+                }
+            });
+        }
+    }
+
     Rgb valueAt(std::uint32_t value) const {
         const Vec3 p = positionOf(mesh_.pointOfValue[value]);
         const auto leaves = incident(value);
         const Sample& first = samples_[leaves[0]];
         // Sums of differences: those of a constant vanish exactly.
         Rgb sum(0.0f);
-        Vec3 directions(0.0f);
-        Rgb low = first.irradiance;
-        Rgb high = first.irradiance;
         Rgb least = first.least;
         Rgb most = first.most;
         for (const std::uint32_t s : leaves) {
             const Sample& sample = samples_[s];
             sum += (sample.irradiance - first.irradiance) + sample.rise(p);
-            const Vec3 d = sample.center - p;
-            const float squared = glm::dot(d, d);
-            directions += squared > 0.0f ? d / std::sqrt(squared) : Vec3(0.0f);
-            low = glm::min(low, sample.irradiance);
-            high = glm::max(high, sample.irradiance);
             least = glm::min(least, sample.least);
             most = glm::max(most, sample.most);
         }
-        const auto count = static_cast<float>(leaves.size());
-        const float bias = std::min(1.0f, glm::length(directions) / (kBorderBias * count));
-        const Rgb margin = (kInnerMargin + (kBorderMargin - kInnerMargin) * bias) * (most - least);
-        const Rgb mean = first.irradiance + sum / count;
-        return glm::max(glm::clamp(mean, low - margin, high + margin), Rgb(0.0f));
+        const Rgb mean = first.irradiance + sum / static_cast<float>(leaves.size());
+        const Rgb range = most - least;
+        const Rgb below = kLowerMargin * glm::min(range, glm::max(least, Rgb(0.0f)));
+        return glm::max(glm::clamp(mean, least - below, most + kUpperMargin * range), Rgb(0.0f));
     }
 
     // The leaf's mean; in quarters of a leaf, what the leaf extrapolates to within the quarter's own corners.
@@ -234,16 +268,14 @@ class Reconstruction {
         if (sample.lastCell - sample.firstCell == 1 || cells_[cell].cornerCount != 4) {
             return sample.irradiance;
         }
-        Vec3 center(0.0f);
         Rgb low(std::numeric_limits<float>::infinity());
         Rgb high(0.0f);
         for (unsigned i = 0; i < 4; ++i) {
             const Rgb& value = values[mesh_.vertices[mesh_.cells[cell].corners[i]].value];
             low = glm::min(low, value);
             high = glm::max(high, value);
-            center += 0.25f * corner(cells_[cell], i);
         }
-        return glm::clamp(sample.irradiance + sample.rise(center), low, high);
+        return glm::clamp(sample.irradiance + sample.rise(middleOfCell(cells_[cell])), low, high);
     }
 
     std::span<const Cell> cells_;
@@ -253,6 +285,8 @@ class Reconstruction {
     std::vector<std::uint32_t> begin_;
     std::vector<std::uint32_t> end_;
     std::vector<std::uint32_t> incident_;
+    /// Of values: 0 where cells surround the vertex, 1 on borders.
+    std::vector<float> border_;
 };
 
 }  // namespace

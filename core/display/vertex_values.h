@@ -18,8 +18,8 @@ struct MeshValues {
 /// Each leaf gets a gradient: the least-squares plane through the centroids of the leaves that it shares a
 /// vertex value with. A vertex takes the mean of what its leaves extrapolate to, so that linear functions are
 /// reproduced on leaves of any sizes and at borders, and the linear interpolant keeps the leaves' means of
-/// quadratic functions on regular meshes. Values stay within the range of their leaves plus a margin, and are
-/// never negative. A constant is reproduced exactly.
+/// quadratic functions on regular meshes. Values stay within the range of their leaves and those leaves'
+/// neighbours plus a margin, and are never negative. A constant is reproduced exactly.
 MeshValues reconstructValues(std::span<const Cell> cells, const MeshVertices& mesh,
                              std::span<const Rgb> sources);
 
