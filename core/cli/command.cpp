@@ -7,7 +7,7 @@
 #include <memory>
 #include <new>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 #include "core/cli/help_formatter.h"
 #include "core/cli/output.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/Formatter.hpp>
+#include <CLI/CLI.hpp>
 
 namespace fluxwalk::cli {
 

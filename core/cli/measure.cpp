@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 #include "core/cli/core_commands.h"
 #include "core/cli/output.h"
