@@ -113,6 +113,7 @@ std::unique_ptr<CLI::App> makeApp(const std::vector<Command>& commands, std::map
     for (const Command& command : commands) {
         CLI::App* sub = app->add_subcommand(command.name, command.description);
         sub->footer("");
+        sub->group("Commands");
         runs[command.name] = command.declare(*sub);
     }
     return app;

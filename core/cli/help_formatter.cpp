@@ -36,6 +36,19 @@ std::vector<std::string> wrapText(std::string_view text, std::size_t columns) {
     return lines;
 }
 
+HelpFormatter::HelpFormatter() {
+    column_width(kNameColumns);
+    label("SUBCOMMAND", "COMMAND");
+    label("Positionals", "Arguments");
+}
+
+std::string HelpFormatter::make_group(std::string group, bool isPositional,
+                                      std::vector<const CLI::Option*> options) const {
+    // The groups are already set apart by what joins them.
+    std::string text = CLI::Formatter::make_group(std::move(group), isPositional, std::move(options));
+    return text.substr(std::min(text.find_first_not_of('\n'), text.size()));
+}
+
 std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {
     std::string name = "  " + option->get_name(isPositional, !isPositional);
     for (std::size_t comma = name.find(','); comma != std::string::npos; comma = name.find(',', comma + 2)) {

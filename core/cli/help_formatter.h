@@ -14,6 +14,9 @@ std::vector<std::string> wrapText(std::string_view text, std::size_t columns);
 /// Help that can be read: options in one column, what they mean wrapped in the next.
 class HelpFormatter : public CLI::Formatter {
   public:
+    HelpFormatter();
+    std::string make_group(std::string group, bool isPositional,
+                           std::vector<const CLI::Option*> options) const override;
     std::string make_option(const CLI::Option* option, bool isPositional) const override;
     std::string make_footer(const CLI::App* app) const override;
 };
