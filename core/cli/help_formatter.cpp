@@ -42,11 +42,16 @@ HelpFormatter::HelpFormatter() {
     label("Positionals", "Arguments");
 }
 
-std::string HelpFormatter::make_group(std::string group, bool isPositional,
-                                      std::vector<const CLI::Option*> options) const {
-    // The groups are already set apart by what joins them.
-    std::string text = CLI::Formatter::make_group(std::move(group), isPositional, std::move(options));
-    return text.substr(std::min(text.find_first_not_of('\n'), text.size()));
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    // One empty line between parts is enough.
+    for (std::size_t i = text.find("\n\n\n"); i != std::string::npos; i = text.find("\n\n\n", i)) {
+        text.erase(i, 1);
+    }
+    while (text.ends_with("\n\n")) {
+        text.pop_back();
+    }
+    return text;
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {

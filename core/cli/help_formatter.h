@@ -15,8 +15,7 @@ std::vector<std::string> wrapText(std::string_view text, std::size_t columns);
 class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter();
-    std::string make_group(std::string group, bool isPositional,
-                           std::vector<const CLI::Option*> options) const override;
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
     std::string make_option(const CLI::Option* option, bool isPositional) const override;
     std::string make_footer(const CLI::App* app) const override;
 };
