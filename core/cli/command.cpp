@@ -7,7 +7,7 @@
 #include <memory>
 #include <new>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 #include "core/cli/help_formatter.h"
 #include "core/cli/output.h"
@@ -113,6 +113,7 @@ std::unique_ptr<CLI::App> makeApp(const std::vector<Command>& commands, std::map
     for (const Command& command : commands) {
         CLI::App* sub = app->add_subcommand(command.name, command.description);
         sub->footer("");
+        sub->group("Commands");
         runs[command.name] = command.declare(*sub);
     }
     return app;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 namespace fluxwalk::cli {
 
@@ -34,6 +34,24 @@ std::vector<std::string> wrapText(std::string_view text, std::size_t columns) {
         lines.push_back(std::move(line));
     }
     return lines;
+}
+
+HelpFormatter::HelpFormatter() {
+    column_width(kNameColumns);
+    label("SUBCOMMAND", "COMMAND");
+    label("Positionals", "Arguments");
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    // One empty line between parts is enough.
+    for (std::size_t i = text.find("\n\n\n"); i != std::string::npos; i = text.find("\n\n\n", i)) {
+        text.erase(i, 1);
+    }
+    while (text.ends_with("\n\n")) {
+        text.pop_back();
+    }
+    return text;
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool isPositional) const {

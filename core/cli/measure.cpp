@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 #include "core/cli/core_commands.h"
 #include "core/cli/output.h"
@@ -47,12 +47,12 @@ Command measureCommand() {
                     ->required()
                     ->type_name("IN.csv")
                     ->group("Scene");
+                addSolverOptions(app, arguments->solver);
                 app.add_option("-o,--output", arguments->values,
                                "The same rows with E_r,E_g,E_b and lux, in the same order.")
                     ->required()
                     ->type_name("OUT.csv")
                     ->group("Output");
-                addSolverOptions(app, arguments->solver);
                 addOutputOptions(app, arguments->output);
                 return [arguments] { return runMeasure(*arguments); };
             }};

@@ -30,6 +30,9 @@ void requireWritable(const std::filesystem::path& file) {
         }
         return;
     }
+    if (!file.has_filename()) {
+        throw WriteError(file.string(), "", "cannot be written: it names no file");
+    }
     std::filesystem::path probe = file;
     probe += ".part" + std::to_string(getpid());
     std::FILE* stream = std::fopen(probe.c_str(), "wb");

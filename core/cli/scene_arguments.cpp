@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "core/base/error.h"

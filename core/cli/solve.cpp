@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 
 #include "core/cli/core_commands.h"
 #include "core/cli/output.h"
@@ -48,12 +48,12 @@ Command solveCommand() {
             [](CLI::App& app) {
                 const auto arguments = std::make_shared<SolveArguments>();
                 addSceneOptions(app, arguments->scene);
+                addSolverOptions(app, arguments->solver);
                 app.add_option("-o,--output", arguments->lit,
                                "Lit mesh: light in the vertex colours, true lux in _IRRADIANCE.")
                     ->required()
                     ->type_name("OUT.glb")
                     ->group("Output");
-                addSolverOptions(app, arguments->solver);
                 addOutputOptions(app, arguments->output);
                 return [arguments] { return runSolve(*arguments); };
             }};

@@ -37,23 +37,23 @@ std::vector<OptionInfo> makeTable() {
                          "transferred illuminance.",
                      .get = [](const Options& o) { return static_cast<double>(o.oracle); },
                      .set = [](Options& o, double value) { o.oracle = static_cast<OracleKind>(value); }});
-    table.push_back({.name = "threshold",
-                     .unit = "lux",
-                     .minimum = 0.0,
-                     .maximum = 1e9,
-                     .zero = "automatic",
-                     .explanation =
-                         "Largest error of one link, fixed. By default a closed loop lowers it until the "
-                         "requested error is reached.",
-                     .get = [](const Options& o) { return o.threshold; },
-                     .set = [](Options& o, double value) { o.threshold = value; }});
+    table.push_back(
+        {.name = "threshold",
+         .unit = "lux",
+         .minimum = 0.0,
+         .maximum = 1e9,
+         .zero = "automatic",
+         .explanation =
+             "Largest error of one link; automatic lowers it until the requested error is reached.",
+         .get = [](const Options& o) { return o.threshold; },
+         .set = [](Options& o, double value) { o.threshold = value; }});
     table.push_back(
         {.name = "min-area",
          .unit = "m2",
          .minimum = 0.0,
          .maximum = 1e9,
          .zero = "automatic",
-         .explanation = "Elements below this area are not split. By default 1e-7 of the scene's area.",
+         .explanation = "Elements below this area are not split; automatic is 1e-7 of the scene's area.",
          .get = [](const Options& o) { return o.minArea; },
          .set = [](Options& o, double value) { o.minArea = value; }});
     table.push_back({.name = "row-scaling",

@@ -33,11 +33,12 @@ const std::vector<Layer> kLayers = {
       "core/transport", "core/display", "core/solve", "core/image"}},
     {"viewer/gl", {"core/base"}},
     {"viewer/render", {"viewer/gl", "core/base", "core/scene"}},
-    {"viewer/session", {"core/base", "core/surface", "core/scene", "core/rays", "core/io", "core/solve"}},
+    {"viewer/session", {"core/base", "core/scene", "core/solve"}},
     {"viewer/ui", {"viewer/gl", "viewer/render", "viewer/session", "core/base", "core/scene", "core/solve"}},
-    {"viewer",
-     {"viewer/gl", "viewer/render", "viewer/session", "viewer/ui", "core/base", "core/scene", "core/rays",
-      "core/io", "core/solve", "core/cli"}},
+    {"viewer/app",
+     {"viewer/gl", "viewer/render", "viewer/session", "viewer/ui", "core/base", "core/surface", "core/scene",
+      "core/rays", "core/io", "core/solve", "core/cli"}},
+    {"viewer", {"viewer/app", "core/cli"}},
 };
 
 const std::vector<Library> kLibraries = {

@@ -2,7 +2,7 @@
 #include <new>
 #include <sstream>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"

@@ -1,7 +1,7 @@
 #include <memory>
 #include <sstream>
 
-#include <CLI/App.hpp>
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include "core/cli/help_formatter.h"

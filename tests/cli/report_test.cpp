@@ -95,7 +95,7 @@ TEST(Report, TextSurvivesBytesThatAreNoUtf8) {
     report.scene.name = "caf\xe9";
     const std::string text = toText(toJson(report));
     EXPECT_TRUE(text.ends_with("}\n"));
-    EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(text)));
+    EXPECT_EQ(nlohmann::json::parse(text).at("command"), "solve");
 }
 
 TEST(Report, SummaryIsForPeople) {
