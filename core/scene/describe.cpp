@@ -22,7 +22,10 @@ void addObject(SceneDescription& description, const Scene& scene, const TextureS
                const Object& object) {
     const surface::Surface& surface = *object.surface;
     const Material& material = scene.materials[object.material];
-    EmitterDescription emitter{object.name, 0.0, base::Vec3d(0.0), 0.0, material.doubleSided};
+    EmitterDescription emitter;
+    emitter.object = object.name;
+    emitter.patches = surface.patchCount();
+    emitter.doubleSided = material.doubleSided;
     for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
         const surface::Region whole = surface::wholePatch(surface.domain(patch));
         const double area = surface.area(patch, whole);
