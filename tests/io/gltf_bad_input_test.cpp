@@ -83,7 +83,7 @@ TEST_F(GltfBadInput, WrongCountsStridesAndRanges) {
                 }),
                 "/buffers/0/byteLength");
     expectError(errorAfter([](json& r) {
-                    r["buffers"] = {{{"byteLength", 96}}, {{"byteLength", 96}}};
+                    r["buffers"] = {{{"byteLength", 92}}, {{"byteLength", 92}}};
                 }),
                 "/buffers/1: has no data");
     expectError(errorAfter([](json& r) { r["accessors"][2]["count"] = 5; }), "corners do not make triangles");
@@ -330,7 +330,7 @@ TEST_F(GltfBadInput, ChangedNumbersAreRefusedOrRead) {
             ++tried;
         }
     }
-    EXPECT_GT(tried, 1000);
+    EXPECT_GT(tried, 500);
 }
 
 }  // namespace

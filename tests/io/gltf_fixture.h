@@ -34,6 +34,8 @@ class TemporaryFolder {
 };
 
 inline void writeBytes(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
+    // Truncating a file that exists makes some file systems flush it.
+    std::filesystem::remove(file);
     std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }

@@ -168,14 +168,14 @@ TEST_F(GltfMaterials, ReducesSixteenBitPicturesToEight) {
 }
 
 TEST_F(GltfMaterials, RefusesPicturesOfAbsurdSize) {
-    // A PNG header that claims 60000 x 60000 pixels (14 GB decoded) over a few bytes.
-    std::vector<std::uint8_t> bomb = png(1, 2, 3);
-    bomb[18] = bomb[22] = 0xea;
-    bomb[19] = bomb[23] = 0x60;
+    // A PNG header that claims 30000 x 30000 pixels (3.6 GB decoded) over a few bytes.
+    std::vector<std::uint8_t> bomb = io::encodePng(1, 1, 1, std::vector<std::uint8_t>{7});
+    bomb[18] = bomb[22] = 0x75;
+    bomb[19] = bomb[23] = 0x30;
     const int texture = fixture_.addTexture(bomb);
     const scene::Scene scene =
         read({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0}}}});
-    EXPECT_TRUE(test::hasWarning(scene, "too large (60000 x 60000)"));
+    EXPECT_TRUE(test::hasWarning(scene, "too large (30000 x 30000)"));
 }
 
 }  // namespace

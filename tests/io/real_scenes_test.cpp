@@ -48,8 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealScene,
                                          Expected{"conference.glb", 124643, 12, 54287.0, 0.5},
                                          Expected{"veach-ajar.glb", 382690, 1, 12129.0, 0.5},
                                          Expected{"bathroom.glb", 592188, 1, 246.0, 0.5}),
-                         [](const auto& info) {
-                             std::string name = info.param.file;
+                         [](const auto& scene) {
+                             std::string name = scene.param.file;
                              name = name.substr(0, name.find('.'));
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;

@@ -75,7 +75,7 @@ TEST_F(SensorsCsv, WritesTheOrderAndDigitsPromised) {
     EXPECT_EQ(text,
               "x,y,z,nx,ny,nz,E_r,E_g,E_b,lux\n"
               "0.1,-2,1e-07,0,1,0,1000,100,10,284.842\n"
-              "1,2,3,0,0,-1,0,0,0.333333343,0.0240666676\n");
+              "1,2,3,0,0,-1,0,0,0.333333343,0.0240666674\n");
     EXPECT_EQ(io::readSensors(file_).size(), 2u);
 }
 
