@@ -14,6 +14,10 @@ inline float luminance(const Rgb& c) {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
+inline double luminance(const Vec3d& c) {
+    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+}
+
 /// Linear light of an sRGB value in [0, 1] (IEC 61966-2-1).
 inline double linearFromSrgb(double v) {
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);

@@ -62,9 +62,12 @@ std::int32_t ImageTable::imageOf(int texture, const std::string& place) {
     int width = 0;
     int height = 0;
     int channels = 0;
-    if (!isPngOrJpeg(bytes) || stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 ||
-        width < 1 || height < 1) {
+    if (!isPngOrJpeg(bytes)) {
         return index = addGrey(imagePlace, "'" + name + "' is neither PNG nor JPEG");
+    }
+    if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0 || width < 1 ||
+        height < 1) {
+        return index = addGrey(imagePlace, "'" + name + "' cannot be decoded");
     }
     const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (pixels > kMaxPixels || pixels > pixelsLeft_) {

@@ -27,33 +27,6 @@ std::string placeOf(const GltfModel& model, const PlacedNode& node, int primitiv
            "/primitives/" + std::to_string(primitive);
 }
 
-// The vertices of all corners in order, each below `vertexCount`.
-std::vector<std::uint32_t> readCorners(const GltfModel& model, const tinygltf::Primitive& primitive,
-                                       std::size_t vertexCount) {
-    std::vector<std::uint32_t> corners;
-    if (primitive.indices < 0) {
-        corners.resize(vertexCount);
-        for (std::size_t i = 0; i < vertexCount; ++i) {
-            corners[i] = static_cast<std::uint32_t>(i);
-        }
-        return corners;
-    }
-    const AccessorReader indices(model, primitive.indices);
-    if (!indices.isInteger()) {
-        model.fail(indices.place(), "indices must be unsigned integer scalars");
-    }
-    corners.reserve(indices.size());
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        const std::uint32_t index = indices.index(i);
-        if (index >= vertexCount) {
-            model.fail(indices.place(), "element " + std::to_string(i) + " is " + std::to_string(index) +
-                                            ", but there are " + std::to_string(vertexCount) + " vertices");
-        }
-        corners.push_back(index);
-    }
-    return corners;
-}
-
 std::vector<Triangle> formTriangles(const GltfModel& model, int mode, const std::vector<std::uint32_t>& c,
                                     const std::string& place) {
     std::vector<Triangle> triangles;
@@ -170,6 +143,32 @@ AccessorReader positionsOf(const GltfModel& model, const tinygltf::Primitive& pr
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> readCorners(const GltfModel& model, const tinygltf::Primitive& primitive,
+                                       std::size_t vertexCount) {
+    std::vector<std::uint32_t> corners;
+    if (primitive.indices < 0) {
+        corners.resize(vertexCount);
+        for (std::size_t i = 0; i < vertexCount; ++i) {
+            corners[i] = static_cast<std::uint32_t>(i);
+        }
+        return corners;
+    }
+    const AccessorReader indices(model, primitive.indices);
+    if (!indices.isInteger()) {
+        model.fail(indices.place(), "indices must be unsigned integer scalars");
+    }
+    corners.reserve(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const std::uint32_t index = indices.index(i);
+        if (index >= vertexCount) {
+            model.fail(indices.place(), "element " + std::to_string(i) + " is " + std::to_string(index) +
+                                            ", but there are " + std::to_string(vertexCount) + " vertices");
+        }
+        corners.push_back(index);
+    }
+    return corners;
+}
 
 std::optional<surface::TriangleSoup> readPrimitive(GltfModel& model, const PlacedNode& node, int primitive,
                                                    const scene::Material& material,

@@ -20,6 +20,10 @@ std::optional<surface::TriangleSoup> readPrimitive(GltfModel& model, const Place
                                                    const scene::Material& material,
                                                    std::uint64_t& trianglesLeft);
 
+/// The vertices of a primitive's corners in order, each checked to be below `vertexCount`.
+std::vector<std::uint32_t> readCorners(const GltfModel& model, const tinygltf::Primitive& primitive,
+                                       std::size_t vertexCount);
+
 /// Bounds of a primitive's vertices in the node's own space.
 base::Box localBounds(const GltfModel& model, const PlacedNode& node, int primitive);
 

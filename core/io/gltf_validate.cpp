@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <initializer_list>
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/io/json_checks.h"
 
 namespace fluxwalk::io {
 
@@ -64,27 +64,33 @@ int depthOf(std::string_view text) {
     return deepest;
 }
 
-class Validator {
+json parseDocument(const fs::path& file, std::string_view text) {
+    if (depthOf(text) > kMaxDepth) {
+        throw base::FileError(file.string(), "",
+                              "is nested deeper than " + std::to_string(kMaxDepth) + " levels");
+    }
+    json root;
+    try {
+        root = json::parse(text);
+    } catch (const json::exception& e) {
+        throw base::FileError(file.string(), "", "is not valid JSON: " + std::string(e.what()));
+    }
+    if (!root.is_object()) {
+        throw base::FileError(file.string(), "", "the top level of the JSON is not an object");
+    }
+    return root;
+}
+
+class Validator : private JsonChecks {
   public:
-    Validator(const fs::path& file, const GltfContainer& container)
-        : file_(file.string()), folder_(sceneFolder(file)), container_(container) {}
+    Validator(const fs::path& file, const GltfContainer& container, const json& root)
+        : JsonChecks(file.string(), root), folder_(sceneFolder(file)), container_(container) {}
 
     void run() {
-        if (depthOf(container_.json) > kMaxDepth) {
-            fail("", "is nested deeper than " + std::to_string(kMaxDepth) + " levels");
-        }
-        try {
-            root_ = json::parse(container_.json);
-        } catch (const json::exception& e) {
-            fail("", "is not valid JSON: " + std::string(e.what()));
-        }
-        if (!root_.is_object()) {
-            fail("", "the top level of the JSON is not an object");
-        }
         for (const char* section :
              {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes",
               "nodes", "samplers", "scenes", "skins", "textures"}) {
-            forEach(root_, section, "", [](const json&, const std::string&) {});
+            forEach(root(), section, "", [](const json&, const std::string&) {});
         }
         checkAsset();
         checkBuffers();
@@ -96,102 +102,6 @@ class Validator {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& place, const std::string& message) const {
-        throw base::FileError(file_, place, message);
-    }
-
-    // Visits the objects of an optional array.
-    template <class Visit>
-    void forEach(const json& owner, const char* key, const std::string& place, const Visit& visit) const {
-        const auto found = owner.find(key);
-        if (found == owner.end()) {
-            return;
-        }
-        const std::string arrayPlace = place + "/" + key;
-        if (!found->is_array()) {
-            fail(arrayPlace, "is not an array");
-        }
-        std::size_t i = 0;
-        for (const json& item : *found) {
-            const std::string itemPlace = arrayPlace + "/" + std::to_string(i++);
-            if (!item.is_object()) {
-                fail(itemPlace, "is not an object");
-            }
-            visit(item, itemPlace);
-        }
-    }
-
-    std::uint64_t sizeOf(const char* section) const {
-        const auto found = root_.find(section);
-        return found == root_.end() ? 0 : found->size();
-    }
-
-    void checkTarget(const json& value, const char* section, const std::string& place) const {
-        if (!value.is_number_unsigned()) {
-            fail(place, "is not an index");
-        }
-        if (value.get<std::uint64_t>() >= sizeOf(section)) {
-            fail(place, "index " + value.dump() + " is out of range: there are " +
-                            std::to_string(sizeOf(section)) + " " + section);
-        }
-    }
-
-    void checkIndex(const json& owner, const char* key, const char* section, const std::string& place) const {
-        if (const auto found = owner.find(key); found != owner.end()) {
-            checkTarget(*found, section, place + "/" + key);
-        }
-    }
-
-    void checkIndices(const json& owner, const char* key, const char* section,
-                      const std::string& place) const {
-        const auto found = owner.find(key);
-        if (found == owner.end()) {
-            return;
-        }
-        const std::string arrayPlace = place + "/" + key;
-        if (!found->is_array()) {
-            fail(arrayPlace, "is not an array");
-        }
-        for (std::size_t i = 0; i < found->size(); ++i) {
-            checkTarget((*found)[i], section, arrayPlace + "/" + std::to_string(i));
-        }
-    }
-
-    // A whole number within [least, most]; `fallback` where the key is absent.
-    std::uint64_t count(const json& owner, const char* key, const std::string& place, std::uint64_t fallback,
-                        std::uint64_t least, std::uint64_t most) const {
-        const auto found = owner.find(key);
-        if (found == owner.end()) {
-            return fallback;
-        }
-        if (!found->is_number_unsigned() || found->get<std::uint64_t>() < least ||
-            found->get<std::uint64_t>() > most) {
-            fail(place + "/" + key, found->dump() + " is not a whole number from " + std::to_string(least) +
-                                        " to " + std::to_string(most));
-        }
-        return found->get<std::uint64_t>();
-    }
-
-    void require(const json& owner, const char* key, const std::string& place) const {
-        if (!owner.contains(key)) {
-            fail(place, std::string("has no ") + key);
-        }
-    }
-
-    void checkNumbers(const json& owner, const char* key, std::size_t length,
-                      const std::string& place) const {
-        const auto found = owner.find(key);
-        if (found == owner.end()) {
-            return;
-        }
-        const bool isRight =
-            found->is_array() && found->size() == length &&
-            std::all_of(found->begin(), found->end(), [](const json& v) { return v.is_number(); });
-        if (!isRight) {
-            fail(place + "/" + key, "is not an array of " + std::to_string(length) + " numbers");
-        }
-    }
-
     void checkUri(const json& owner, const std::string& place) const {
         const auto found = owner.find("uri");
         if (found == owner.end()) {
@@ -207,9 +117,9 @@ class Validator {
     }
 
     void checkAsset() const {
-        const auto asset = root_.find("asset");
+        const auto asset = root().find("asset");
         const bool hasVersion =
-            asset != root_.end() && asset->is_object() && asset->value("version", json()).is_string();
+            asset != root().end() && asset->is_object() && asset->value("version", json()).is_string();
         if (!hasVersion) {
             fail("/asset/version", "is missing: this is not glTF 2.0");
         }
@@ -217,8 +127,8 @@ class Validator {
         if (!version.starts_with("2.")) {
             fail("/asset/version", "is " + version + ", only 2.x is supported");
         }
-        const auto required = root_.find("extensionsRequired");
-        if (required == root_.end()) {
+        const auto required = root().find("extensionsRequired");
+        if (required == root().end()) {
             return;
         }
         if (!required->is_array()) {
@@ -237,7 +147,7 @@ class Validator {
     }
 
     void checkBuffers() {
-        forEach(root_, "buffers", "", [this](const json& buffer, const std::string& place) {
+        forEach(root(), "buffers", "", [this](const json& buffer, const std::string& place) {
             require(buffer, "byteLength", place);
             const std::uint64_t length = count(buffer, "byteLength", place, 0, 1, 0xffffffffu);
             checkUri(buffer, place);
@@ -254,7 +164,7 @@ class Validator {
             }
             bufferLengths_.push_back(length);
         });
-        forEach(root_, "bufferViews", "", [this](const json& view, const std::string& place) {
+        forEach(root(), "bufferViews", "", [this](const json& view, const std::string& place) {
             require(view, "buffer", place);
             require(view, "byteLength", place);
             checkIndex(view, "buffer", "buffers", place);
@@ -272,7 +182,7 @@ class Validator {
     }
 
     void checkAccessors() const {
-        forEach(root_, "accessors", "", [this](const json& accessor, const std::string& place) {
+        forEach(root(), "accessors", "", [this](const json& accessor, const std::string& place) {
             for (const char* key : {"componentType", "count", "type"}) {
                 require(accessor, key, place);
             }
@@ -305,14 +215,14 @@ class Validator {
     }
 
     void checkPictures() const {
-        forEach(root_, "images", "", [this](const json& image, const std::string& place) {
+        forEach(root(), "images", "", [this](const json& image, const std::string& place) {
             checkIndex(image, "bufferView", "bufferViews", place);
             checkUri(image, place);
             if (image.contains("uri") == image.contains("bufferView")) {
                 fail(place, "must have either a uri or a bufferView");
             }
         });
-        forEach(root_, "textures", "", [this](const json& texture, const std::string& place) {
+        forEach(root(), "textures", "", [this](const json& texture, const std::string& place) {
             checkIndex(texture, "source", "images", place);
             checkIndex(texture, "sampler", "samplers", place);
         });
@@ -333,7 +243,7 @@ class Validator {
     }
 
     void checkMaterials() const {
-        forEach(root_, "materials", "", [this](const json& material, const std::string& place) {
+        forEach(root(), "materials", "", [this](const json& material, const std::string& place) {
             checkNumbers(material, "emissiveFactor", 3, place);
             for (const char* key : {"emissiveTexture", "normalTexture", "occlusionTexture"}) {
                 checkTextureInfo(material, key, place);
@@ -353,7 +263,7 @@ class Validator {
     }
 
     void checkMeshes() const {
-        forEach(root_, "meshes", "", [this](const json& mesh, const std::string& place) {
+        forEach(root(), "meshes", "", [this](const json& mesh, const std::string& place) {
             require(mesh, "primitives", place);
             forEach(mesh, "primitives", place, [this](const json& primitive, const std::string& part) {
                 checkIndex(primitive, "indices", "accessors", part);
@@ -372,7 +282,7 @@ class Validator {
     }
 
     void checkNodes() const {
-        forEach(root_, "nodes", "", [this](const json& node, const std::string& place) {
+        forEach(root(), "nodes", "", [this](const json& node, const std::string& place) {
             checkIndex(node, "mesh", "meshes", place);
             checkIndex(node, "camera", "cameras", place);
             checkIndex(node, "skin", "skins", place);
@@ -382,16 +292,14 @@ class Validator {
             checkNumbers(node, "scale", 3, place);
             checkNumbers(node, "matrix", 16, place);
         });
-        forEach(root_, "scenes", "", [this](const json& scene, const std::string& place) {
+        forEach(root(), "scenes", "", [this](const json& scene, const std::string& place) {
             checkIndices(scene, "nodes", "nodes", place);
         });
-        checkIndex(root_, "scene", "scenes", "");
+        checkIndex(root(), "scene", "scenes", "");
     }
 
-    std::string file_;
     fs::path folder_;
     const GltfContainer& container_;
-    json root_;
     std::vector<std::uint64_t> bufferLengths_;
 };
 
@@ -421,7 +329,8 @@ fs::path resolveInside(const fs::path& folder, const std::string& name) {
 }
 
 void validateGltf(const fs::path& file, const GltfContainer& container) {
-    Validator(file, container).run();
+    const json root = parseDocument(file, container.json);
+    Validator(file, container, root).run();
 }
 
 }  // namespace fluxwalk::io

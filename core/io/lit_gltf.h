@@ -27,8 +27,10 @@ struct LitFile {
     scene::LitMeshes meshes;
     LitExport settings;
 };
-/// Whether a file was written by writeLitGltf.
+/// Whether a file was written by writeLitGltf; false also where it cannot be read.
 bool isLitGltf(const std::filesystem::path& file);
+/// Objects come back as polygon meshes of their displayed triangles. Lights without area, and the reflectance
+/// textures of emissive materials (their mean is kept), do not come back. Throws base::FileError.
 LitFile readLitGltf(const std::filesystem::path& file);
 
 }  // namespace fluxwalk::io

@@ -144,7 +144,7 @@ void writeSensors(const std::filesystem::path& file, std::span<const scene::Sens
         for (int c = 0; c < 3; ++c) {
             add(static_cast<double>(irradiance[i][c]), ',');
         }
-        add(static_cast<double>(base::luminance(irradiance[i])), '\n');
+        add(base::luminance(base::Vec3d(irradiance[i])), '\n');
     }
     writeFile(file, text);
 }

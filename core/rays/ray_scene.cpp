@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 
 #include "core/base/check.h"
+#include "core/scene/texture.h"
 
 namespace fluxwalk::rays {
 
@@ -42,9 +43,25 @@ bool isSafe(const Ray& ray) {
     return finite(ray.origin) && finite(ray.direction) && ray.tNear >= 0.0f && ray.tFar >= ray.tNear;
 }
 
+/// What the callbacks of one object need.
+struct Geometry {
+    const surface::Surface* surface = nullptr;
+    /// Triangle-to-patch table; empty where the primitive is the patch.
+    std::span<const std::uint32_t> patches;
+    /// Set where the object has holes: an AlphaMode::mask material with a texture, and the scene's textures.
+    const scene::Material* cutOut = nullptr;
+    const scene::TextureSet* textures = nullptr;
+
+    bool isHole(std::uint32_t patch, const Vec2d& uv) const {
+        return cutOut != nullptr &&
+               scene::coverageAt(*cutOut, *textures,
+                                 surface->texcoord(patch, uv, cutOut->reflectanceTexture.texcoordSet)) ==
+                   0.0f;
+    }
+};
+
 void exactBounds(const RTCBoundsFunctionArguments* args) {
-    const auto& surface = *static_cast<const surface::Surface*>(args->geometryUserPtr);
-    const base::Box box = surface.bounds();
+    const base::Box box = static_cast<const Geometry*>(args->geometryUserPtr)->surface->bounds();
     RTCBounds& out = *args->bounds_o;
     const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -INFINITY); };
     const auto up = [](double v) { return std::nextafter(static_cast<float>(v), INFINITY); };
@@ -56,24 +73,53 @@ void exactBounds(const RTCBoundsFunctionArguments* args) {
     out.upper_z = up(box.upper.z);
 }
 
-std::optional<surface::SurfaceHit> meetExact(const surface::Surface& surface, RTCRayN* ray, unsigned n,
-                                             unsigned i) {
-    const Vec3d origin(RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i));
-    const Vec3d direction(RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i));
-    return surface.intersect(origin, direction, static_cast<double>(RTCRayN_tnear(ray, n, i)),
-                             static_cast<double>(RTCRayN_tfar(ray, n, i)));
+Vec3d originOf(RTCRayN* ray, unsigned n, unsigned i) {
+    return {RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)};
+}
+
+Vec3d directionOf(RTCRayN* ray, unsigned n, unsigned i) {
+    return {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)};
+}
+
+std::optional<surface::SurfaceHit> meetExact(const Geometry& geometry, RTCRayN* ray, unsigned n, unsigned i) {
+    const Vec3d origin = originOf(ray, n, i);
+    const Vec3d direction = directionOf(ray, n, i);
+    const auto tFar = static_cast<double>(RTCRayN_tfar(ray, n, i));
+    auto found =
+        geometry.surface->intersect(origin, direction, static_cast<double>(RTCRayN_tnear(ray, n, i)), tFar);
+    while (found && geometry.isHole(found->patch, found->uv)) {
+        found = geometry.surface->intersect(origin, direction, found->t, tFar);
+    }
+    return found;
+}
+
+// Embree asks for each hit on an object with holes whether it counts; where it does not, the ray goes on.
+void rejectHoles(const RTCFilterFunctionNArguments* args) {
+    const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) {
+            continue;
+        }
+        const Vec3d at =
+            originOf(args->ray, args->N, i) +
+            static_cast<double>(RTCRayN_tfar(args->ray, args->N, i)) * directionOf(args->ray, args->N, i);
+        const std::uint32_t patch = geometry.patches[RTCHitN_primID(args->hit, args->N, i)];
+        if (geometry.isHole(patch, geometry.surface->locate(patch, at))) {
+            args->valid[i] = 0;
+        }
+    }
 }
 
 void exactIntersect(const RTCIntersectFunctionNArguments* args) {
-    const auto& surface = *static_cast<const surface::Surface*>(args->geometryUserPtr);
+    const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
     RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) {
             continue;
         }
-        if (const auto found = meetExact(surface, ray, args->N, i)) {
-            const Vec3d n = surface.evaluate(found->patch, found->uv).normal;
+        if (const auto found = meetExact(geometry, ray, args->N, i)) {
+            const Vec3d n = geometry.surface->evaluate(found->patch, found->uv).normal;
             RTCRayN_tfar(ray, args->N, i) = static_cast<float>(found->t);
             RTCHitN_Ng_x(hit, args->N, i) = static_cast<float>(n.x);
             RTCHitN_Ng_y(hit, args->N, i) = static_cast<float>(n.y);
@@ -86,12 +132,19 @@ void exactIntersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void exactOccluded(const RTCOccludedFunctionNArguments* args) {
-    const auto& surface = *static_cast<const surface::Surface*>(args->geometryUserPtr);
+    const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] != 0 && meetExact(surface, args->ray, args->N, i)) {
+        if (args->valid[i] != 0 && meetExact(geometry, args->ray, args->N, i)) {
             RTCRayN_tfar(args->ray, args->N, i) = -INFINITY;
         }
     }
+}
+
+// Blended surfaces let all light pass, as do masked ones whose alpha is everywhere below the cutoff.
+bool blocksLight(const scene::Material& material) {
+    const bool isAllHole = material.alphaMode == scene::AlphaMode::mask &&
+                           !material.reflectanceTexture.isSet() && material.alpha < material.alphaCutoff;
+    return material.alphaMode != scene::AlphaMode::blend && !isAllHole;
 }
 
 }  // namespace
@@ -99,42 +152,48 @@ void exactOccluded(const RTCOccludedFunctionNArguments* args) {
 struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    /// Triangle-to-patch tables by object; empty where the primitive is the patch.
-    std::vector<std::span<const std::uint32_t>> patchOf;
+    /// By object; the callbacks hold pointers into it.
+    std::vector<Geometry> geometries;
+    /// The scene's pictures, where some object has holes.
+    std::optional<scene::TextureSet> textures;
     ~Impl() {
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
     }
 
     void addTriangles(const surface::TriangleView& view, unsigned object) {
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         // Copies: Embree may read 16 bytes past the last vertex, which only its own buffers are padded for.
         auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), view.positions.size()));
+            handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), view.positions.size()));
         auto* triangles = static_cast<std::array<std::uint32_t, 3>*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+            rtcSetNewGeometryBuffer(handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                     sizeof(std::array<std::uint32_t, 3>), view.triangles.size()));
         FLUXWALK_CHECK(vertices != nullptr && triangles != nullptr);
         std::copy(view.positions.begin(), view.positions.end(), vertices);
         std::copy(view.triangles.begin(), view.triangles.end(), triangles);
-        attach(geometry, object);
+        if (geometries[object].cutOut != nullptr) {
+            rtcSetGeometryUserData(handle, &geometries[object]);
+            rtcSetGeometryIntersectFilterFunction(handle, rejectHoles);
+            rtcSetGeometryOccludedFilterFunction(handle, rejectHoles);
+        }
+        attach(handle, object);
     }
 
-    void addExact(const surface::Surface& surface, unsigned object) {
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, 1);
-        // Embree hands the pointer back to the callbacks above, which only read through it.
-        rtcSetGeometryUserData(geometry, const_cast<surface::Surface*>(&surface));
-        rtcSetGeometryBoundsFunction(geometry, exactBounds, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, exactIntersect);
-        rtcSetGeometryOccludedFunction(geometry, exactOccluded);
-        attach(geometry, object);
+    void addExact(unsigned object) {
+        const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(handle, 1);
+        rtcSetGeometryUserData(handle, &geometries[object]);
+        rtcSetGeometryBoundsFunction(handle, exactBounds, nullptr);
+        rtcSetGeometryIntersectFunction(handle, exactIntersect);
+        rtcSetGeometryOccludedFunction(handle, exactOccluded);
+        attach(handle, object);
     }
 
-    void attach(RTCGeometry geometry, unsigned object) const {
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene, geometry, object);
-        rtcReleaseGeometry(geometry);
+    void attach(RTCGeometry handle, unsigned object) const {
+        rtcCommitGeometry(handle);
+        rtcAttachGeometryByID(scene, handle, object);
+        rtcReleaseGeometry(handle);
     }
 };
 
@@ -147,18 +206,26 @@ RayScene::RayScene(const scene::Scene& scene, const base::Executor& executor)
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
     lift_ = std::max(kLift * scene.bounds().diagonal(), 1e-12);
-    impl_->patchOf.resize(scene.objects.size());
+    impl_->geometries.resize(scene.objects.size());
     for (unsigned i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
-        if (object.surface->patchCount() == 0 ||
-            scene.materials[object.material].alphaMode == scene::AlphaMode::blend) {
+        const scene::Material& material = scene.materials[object.material];
+        if (object.surface->patchCount() == 0 || !blocksLight(material)) {
             continue;
         }
         const surface::TriangleView view = object.surface->triangles();
+        Geometry& geometry = impl_->geometries[i];
+        geometry = {object.surface.get(), view.patches, nullptr, nullptr};
+        if (material.alphaMode == scene::AlphaMode::mask && material.reflectanceTexture.isSet()) {
+            if (!impl_->textures) {
+                impl_->textures.emplace(scene);
+            }
+            geometry.cutOut = &material;
+            geometry.textures = &*impl_->textures;
+        }
         if (view.triangles.empty()) {
-            impl_->addExact(*object.surface, i);
+            impl_->addExact(i);
         } else {
-            impl_->patchOf[i] = view.patches;
             impl_->addTriangles(view, i);
         }
     }
@@ -193,7 +260,7 @@ std::optional<Hit> RayScene::closest(const Ray& ray) const {
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
     }
-    const std::span<const std::uint32_t> patches = impl_->patchOf[query.hit.geomID];
+    const std::span<const std::uint32_t> patches = impl_->geometries[query.hit.geomID].patches;
     const float facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y +
                          query.hit.Ng_z * query.ray.dir_z;
     return Hit{query.ray.tfar, base::ObjectId{query.hit.geomID},

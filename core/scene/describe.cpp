@@ -8,10 +8,6 @@ namespace fluxwalk::scene {
 
 namespace {
 
-double luminanceOf(const base::Vec3d& c) {
-    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
-}
-
 SurfaceKindDescription& kindEntry(std::vector<SurfaceKindDescription>& kinds, std::string_view kind) {
     const auto found =
         std::find_if(kinds.begin(), kinds.end(), [kind](const auto& entry) { return entry.kind == kind; });
@@ -22,7 +18,10 @@ void addObject(SceneDescription& description, const Scene& scene, const TextureS
                const Object& object) {
     const surface::Surface& surface = *object.surface;
     const Material& material = scene.materials[object.material];
-    EmitterDescription emitter{object.name, 0.0, base::Vec3d(0.0), 0.0, material.doubleSided};
+    EmitterDescription emitter;
+    emitter.object = object.name;
+    emitter.patches = surface.patchCount();
+    emitter.doubleSided = material.doubleSided;
     for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
         const surface::Region whole = surface::wholePatch(surface.domain(patch));
         const double area = surface.area(patch, whole);
@@ -41,7 +40,7 @@ void addObject(SceneDescription& description, const Scene& scene, const TextureS
     description.area += emitter.area;
     description.doubleSidedArea += material.doubleSided ? emitter.area : 0.0;
     if (material.isEmissive()) {
-        emitter.lumens = luminanceOf(emitter.flux);
+        emitter.lumens = base::luminance(emitter.flux);
         description.lumens += emitter.lumens;
         description.emittingArea += emitter.area;
         description.emitters.push_back(std::move(emitter));
@@ -72,7 +71,7 @@ SceneDescription describeScene(const Scene& scene, const TextureSet& textures) {
     }
     description.sides = 2 * description.patches;
     for (const Light& light : scene.lights) {
-        const double lumens = luminanceOf(base::Vec3d(fluxOf(light)));
+        const double lumens = base::luminance(base::Vec3d(fluxOf(light)));
         description.lights.push_back({light.name, light.kind, light.intensity, lumens});
         description.lumens += lumens;
     }

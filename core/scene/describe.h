@@ -13,6 +13,7 @@ namespace fluxwalk::scene {
 /// An object that emits.
 struct EmitterDescription {
     std::string object;
+    std::size_t patches = 0;
     double area = 0.0;         ///< m2 of one side
     base::Vec3d flux{0.0};     ///< lm per channel, from both sides where the material is doubleSided
     double lumens = 0.0;       ///< luminance of `flux`
