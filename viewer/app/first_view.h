@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/rays/ray_scene.h"
+#include "core/scene/lit_mesh.h"
 
 namespace fluxwalk::app {
 

@@ -54,7 +54,7 @@ class Walkthrough {
     ui::ImguiContext imgui_;
     ui::ImguiRenderer imguiRenderer_;
     render::SceneRenderer renderer_;
-    std::optional<gl::RenderTarget> target_;
+    std::unique_ptr<gl::RenderTarget> target_;
     MouseLook mouse_;
     ui::Walker walker_;
     ui::ViewSettings settings_;
@@ -205,7 +205,7 @@ void Walkthrough::drawScene() {
     }
     if (!target_ || !(target_->size() == size) || target_->samples() != samples) {
         target_.reset();
-        target_.emplace(window_.functions(), size, samples);
+        target_ = std::make_unique<gl::RenderTarget>(window_.functions(), size, samples);
     }
     target_->bind();
     renderer_.draw(walker_.camera(), static_cast<double>(size.width) / size.height, wanted);

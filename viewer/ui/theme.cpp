@@ -3,7 +3,7 @@
 namespace fluxwalk::ui {
 namespace {
 
-constexpr ImVec4 grey(float value, float alpha = 1.0f) {
+ImVec4 grey(float value, float alpha = 1.0f) {
     return {value, value, value + 0.004f, alpha};
 }
 

@@ -6,12 +6,12 @@
 /// one warm accent.
 namespace fluxwalk::ui {
 
-inline constexpr ImVec4 kAccent{0.96f, 0.72f, 0.36f, 1.0f};
-inline constexpr ImVec4 kAccentDim{0.62f, 0.48f, 0.27f, 1.0f};
-inline constexpr ImVec4 kTextDim{0.62f, 0.62f, 0.63f, 1.0f};
-inline constexpr ImVec4 kWarning{0.95f, 0.45f, 0.36f, 1.0f};
+inline const ImVec4 kAccent{0.96f, 0.72f, 0.36f, 1.0f};
+inline const ImVec4 kAccentDim{0.62f, 0.48f, 0.27f, 1.0f};
+inline const ImVec4 kTextDim{0.62f, 0.62f, 0.63f, 1.0f};
+inline const ImVec4 kWarning{0.95f, 0.45f, 0.36f, 1.0f};
 /// Second line of plots.
-inline constexpr ImVec4 kCool{0.55f, 0.72f, 0.86f, 1.0f};
+inline const ImVec4 kCool{0.55f, 0.72f, 0.86f, 1.0f};
 
 /// Height of the panel's text in pixels at 96 dpi.
 inline constexpr float kFontSize = 15.0f;
