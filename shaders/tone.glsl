@@ -1,0 +1,39 @@
+// From luminance to the screen: exposure, tone curve, sRGB encoding, dithering. viewer/render/tone.cpp is the
+// same in C++; a test compares them.
+
+uniform float exposure;  // per cd/m2
+uniform int toneCurve;   // 0 linear, 1 filmic, 2 Reinhard
+
+// A rational curve through (0, 0) with slope 0.75, (0.18, 0.18), (1, 0.72) and (8, 0.975), tending to 1.
+vec3 filmic(vec3 x) {
+    return x * (3.32 * x + 0.75) / (x * (3.32 * x + 1.334) + 1.0);
+}
+
+// Reinhard et al. 2002, eq. 4, on luminance: keeps the hue; four times white becomes white.
+vec3 reinhard(vec3 x) {
+    float y = dot(x, vec3(0.2126, 0.7152, 0.0722));
+    return x * (1.0 + y / 16.0) / (1.0 + y);
+}
+
+vec3 encodeSrgb(vec3 x) {
+    return mix(12.92 * x, 1.055 * pow(max(x, 0.0031308), vec3(1.0 / 2.4)) - 0.055,
+               greaterThan(x, vec3(0.0031308)));
+}
+
+// Uniform in [-0.5, 0.5), fixed to the pixel: smooth gradients get no bands, still pictures no flicker.
+float ditherNoise(uvec2 pixel) {
+    uint h = pixel.x * 1664525u + pixel.y * 22695477u + 1013904223u;
+    h = (h ^ (h >> 15)) * 2246822519u;
+    h = (h ^ (h >> 13)) * 3266489917u;
+    return float((h ^ (h >> 16)) >> 8) / 16777216.0 - 0.5;
+}
+
+vec3 encodeForScreen(vec3 display) {
+    return encodeSrgb(clamp(display, 0.0, 1.0)) + ditherNoise(uvec2(gl_FragCoord.xy)) / 255.0;
+}
+
+vec3 toDisplay(vec3 luminance) {
+    vec3 x = exposure * luminance;
+    vec3 curved = toneCurve == 1 ? filmic(x) : toneCurve == 2 ? reinhard(x) : x;
+    return encodeForScreen(curved);
+}

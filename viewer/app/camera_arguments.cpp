@@ -1,0 +1,70 @@
+#include "viewer/app/camera_arguments.h"
+
+#include <CLI/App.hpp>
+
+#include "core/base/error.h"
+#include "core/base/photometry.h"
+#include "viewer/render/camera.h"
+
+namespace fluxwalk::app {
+namespace {
+
+constexpr double kDefaultFov = 50.0;
+
+scene::Camera findCamera(const std::string& name, const scene::Scene& scene) {
+    std::string known;
+    for (const scene::Camera& camera : scene.cameras) {
+        if (camera.name == name) {
+            return camera;
+        }
+        known += (known.empty() ? "" : ", ") + camera.name;
+    }
+    throw base::UsageError("--camera: the scene has no camera '" + name + "'" +
+                           (known.empty() ? "" : "; it has " + known));
+}
+
+base::Vec3d toVector(const std::vector<double>& values) {
+    return {values[0], values[1], values[2]};
+}
+
+}  // namespace
+
+void addCameraOptions(CLI::App& app, CameraArguments& arguments) {
+    CLI::Option* name = app.add_option("--camera", arguments.name, "Camera of the scene to look from.");
+    name->type_name("NAME")->group("Camera");
+    const auto addPoint = [&](const char* option, std::vector<double>& point, const char* description) {
+        return app.add_option(option, point, description)
+            ->delimiter(',')
+            ->expected(3)
+            ->type_name("X,Y,Z")
+            ->excludes(name)
+            ->group("Camera");
+    };
+    CLI::Option* eye = addPoint("--eye", arguments.eye, "Where to look from, in metres.");
+    CLI::Option* target = addPoint("--target", arguments.target, "Where to look, in metres.");
+    eye->needs(target);
+    target->needs(eye);
+    app.add_option("--fov", arguments.fov, "Vertical field of view in degrees; 50 with --eye.")
+        ->type_name("DEG")
+        ->check(CLI::Range(1.0, 179.0))
+        ->group("Camera");
+}
+
+scene::Camera chooseCamera(const CameraArguments& arguments, const scene::Scene& scene,
+                           const std::function<scene::Camera()>& firstView) {
+    scene::Camera camera;
+    if (!arguments.eye.empty()) {
+        camera = render::lookAt(toVector(arguments.eye), toVector(arguments.target),
+                                arguments.fov > 0.0 ? arguments.fov : kDefaultFov);
+    } else if (!arguments.name.empty()) {
+        camera = findCamera(arguments.name, scene);
+    } else {
+        camera = scene.cameras.empty() ? firstView() : scene.cameras.front();
+    }
+    if (arguments.fov > 0.0) {
+        camera.verticalFov = arguments.fov * base::kPi / 180.0;
+    }
+    return camera;
+}
+
+}  // namespace fluxwalk::app

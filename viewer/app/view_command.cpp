@@ -1,0 +1,188 @@
+#include "viewer/app/view_command.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <CLI/App.hpp>
+
+#include "core/cli/output.h"
+#include "core/cli/run_solver.h"
+#include "core/io/image_write.h"
+#include "core/io/lit_gltf.h"
+#include "viewer/app/camera_arguments.h"
+#include "viewer/app/first_view.h"
+#include "viewer/app/floor.h"
+#include "viewer/app/picture_size.h"
+#include "viewer/app/screenshot.h"
+#include "viewer/app/walkthrough.h"
+
+namespace fluxwalk::app {
+namespace {
+
+/// Written where there is no display to walk on.
+constexpr const char* kFallbackPicture = "walkthrough.png";
+constexpr gl::PixelSize kWindowSize{1400, 900};
+constexpr gl::PixelSize kDefaultPicture{1280, 720};
+
+enum class GlChoice : std::uint8_t { automatic, egl, osmesa, window };
+
+struct ViewArguments {
+    cli::SceneArguments scene;
+    cli::SolverArguments solver;
+    cli::OutputArguments output;
+    CameraArguments camera;
+    std::filesystem::path screenshot;
+    gl::PixelSize size = kDefaultPicture;
+    GlChoice gl = GlChoice::automatic;
+};
+
+bool isLit(const std::string& scene) {
+    std::error_code ignored;
+    return cli::namesFile(scene) && std::filesystem::exists(scene, ignored) && io::isLitGltf(scene);
+}
+
+/// Something to look at, solved or about to be.
+struct Shown {
+    std::shared_ptr<const scene::Scene> scene;
+    scene::LitMeshes meshes;
+    std::shared_ptr<const scene::Scene> solid;
+};
+
+Shown loadLit(const std::string& file) {
+    io::LitFile lit = io::readLitGltf(file);
+    Shown shown;
+    shown.meshes = std::move(lit.meshes);
+    shown.scene = std::make_shared<const scene::Scene>(std::move(lit.scene));
+    shown.solid = std::make_shared<const scene::Scene>(sceneOfMeshes(shown.meshes));
+    return shown;
+}
+
+scene::Camera cameraFor(const ViewArguments& arguments, const Shown& shown) {
+    return chooseCamera(arguments.camera, *shown.scene, [&] {
+        const Solid solid(shown.solid);
+        return chooseFirstView(solid.rays, shown.solid->bounds());
+    });
+}
+
+std::unique_ptr<gl::Context> makeContext(GlChoice choice) {
+    switch (choice) {
+        case GlChoice::egl:
+            return gl::makeHeadlessContext(gl::HeadlessKind::egl);
+        case GlChoice::osmesa:
+            return gl::makeHeadlessContext(gl::HeadlessKind::osmesa);
+        case GlChoice::window:
+            return std::make_unique<gl::WindowContext>("Fluxwalk", kWindowSize, false);
+        case GlChoice::automatic:
+            break;
+    }
+    return gl::makeHeadlessContext(gl::HeadlessKind::automatic);
+}
+
+cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
+    cli::requireWritable(file);
+    // Before the solving, which may take long.
+    const std::unique_ptr<gl::Context> context = makeContext(arguments.gl);
+    Shown shown;
+    std::optional<cli::Solved> solved;
+    scene::Camera camera;
+    if (isLit(arguments.scene.scene)) {
+        shown = loadLit(arguments.scene.scene);
+    } else {
+        solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
+        shown = {solved->scene, solved->solver->litMeshes(), solved->scene};
+    }
+    camera = cameraFor(arguments, shown);
+    const std::vector<std::uint8_t> pixels =
+        drawPicture(*context, shown.scene, shown.meshes, camera, arguments.size, render::ToneCurve::filmic);
+    cli::writeOutput([&] {
+        io::writePng(file, static_cast<std::uint32_t>(arguments.size.width),
+                     static_cast<std::uint32_t>(arguments.size.height), pixels);
+    });
+    if (!solved) {
+        return cli::ExitCode::success;
+    }
+    cli::completeReport(*solved, {file.string()});
+    cli::deliver(solved->report, arguments.output);
+    return solved->exitCode();
+}
+
+cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& window) {
+    Exhibit exhibit;
+    exhibit.threads = arguments.solver.threads;
+    Shown shown;
+    if (isLit(arguments.scene.scene)) {
+        shown = loadLit(arguments.scene.scene);
+    } else {
+        shown.scene = std::make_shared<const scene::Scene>(cli::loadScene(arguments.scene));
+        shown.solid = shown.scene;
+        exhibit.options = arguments.solver.options;
+        if (!arguments.output.quiet) {
+            for (const std::string& warning : shown.scene->warnings) {
+                cli::printWarning(warning);
+            }
+        }
+    }
+    exhibit.camera = cameraFor(arguments, shown);
+    exhibit.scene = shown.scene;
+    exhibit.meshes = std::move(shown.meshes);
+    exhibit.solid = shown.solid;
+    walkThrough(window, exhibit);
+    return cli::ExitCode::success;
+}
+
+cli::ExitCode runView(const ViewArguments& arguments) {
+    if (!arguments.screenshot.empty()) {
+        return takePicture(arguments, arguments.screenshot);
+    }
+    if (arguments.gl == GlChoice::egl || arguments.gl == GlChoice::osmesa) {
+        throw base::UsageError("--gl egl and --gl osmesa have no window: add --screenshot OUT.png");
+    }
+    std::optional<gl::WindowContext> window;
+    try {
+        window.emplace("Fluxwalk", kWindowSize, true);
+    } catch (const gl::ContextUnavailable& error) {
+        if (arguments.gl == GlChoice::window) {
+            throw;
+        }
+        const std::filesystem::path file = std::filesystem::absolute(kFallbackPicture);
+        cli::printWarning(std::string(error.what()) + "; writing a picture to " + file.string());
+        return takePicture(arguments, file);
+    }
+    return openWindow(arguments, *window);
+}
+
+}  // namespace
+
+cli::Command viewCommand() {
+    return {"view", "Walk through a scene while it is solved, or through a lit mesh written by solve.",
+            [](CLI::App& app) {
+                const auto arguments = std::make_shared<ViewArguments>();
+                cli::addSceneOptions(app, arguments->scene);
+                addCameraOptions(app, arguments->camera);
+                app.add_option("--screenshot", arguments->screenshot,
+                               "Solve, write a picture and end, without a window.")
+                    ->type_name("OUT.png")
+                    ->group("Picture");
+                app.add_option_function<std::string>(
+                       "--size", [arguments](const std::string& text) { arguments->size = parseSize(text); },
+                       "Size of the picture in pixels; 1280x720 by default.")
+                    ->type_name("WxH")
+                    ->group("Picture");
+                app.add_option("--gl", arguments->gl,
+                               "What draws the picture: auto is EGL without a display, else OSMesa.")
+                    ->type_name("auto|egl|osmesa|window")
+                    ->transform(
+                        CLI::CheckedTransformer(std::map<std::string, GlChoice>{{"auto", GlChoice::automatic},
+                                                                                {"egl", GlChoice::egl},
+                                                                                {"osmesa", GlChoice::osmesa},
+                                                                                {"window", GlChoice::window}},
+                                                CLI::ignore_case))
+                    ->group("Picture");
+                cli::addSolverOptions(app, arguments->solver);
+                cli::addOutputOptions(app, arguments->output);
+                return [arguments] { return runView(*arguments); };
+            }};
+}
+
+}  // namespace fluxwalk::app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/scene/lit_mesh.h"
+#include "core/scene/scene.h"
+#include "core/solve/options.h"
+#include "viewer/gl/window_context.h"
+
+namespace fluxwalk::app {
+
+/// What to walk through.
+struct Exhibit {
+    std::shared_ptr<const scene::Scene> scene;
+    scene::Camera camera;
+    /// A lit file's meshes; empty where the scene is solved.
+    scene::LitMeshes meshes;
+    /// Its shapes as objects, for the floor: the scene itself, or one made of a lit file's meshes.
+    std::shared_ptr<const scene::Scene> solid;
+    /// How to solve; nothing for a lit file.
+    std::optional<solve::Options> options;
+    unsigned threads = 0;
+};
+
+/// Runs the window until it is closed. Where a scene is solved, the solver starts at once and is stopped at
+/// the end.
+void walkThrough(gl::WindowContext& window, const Exhibit& exhibit);
+
+}  // namespace fluxwalk::app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+/// The GLSL files of shaders/, copied into the program by the build. They carry no #version line: `tone.glsl`
+/// goes before the fragment shaders that use it.
+namespace fluxwalk::gl::shaders {
+
+extern const std::string_view kLitVertex;
+extern const std::string_view kLitFragment;
+extern const std::string_view kBackgroundVertex;
+extern const std::string_view kBackgroundFragment;
+extern const std::string_view kTone;
+extern const std::string_view kPanelVertex;
+extern const std::string_view kPanelFragment;
+
+/// First line of every shader.
+inline constexpr std::string_view kVersion = "#version 330 core\n";
+
+}  // namespace fluxwalk::gl::shaders

@@ -1,0 +1,50 @@
+#include "viewer/render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/base/error.h"
+#include "core/base/photometry.h"
+
+namespace fluxwalk::render {
+
+using base::Vec3d;
+
+scene::Camera lookAt(const Vec3d& eye, const Vec3d& target, double verticalFovDegrees) {
+    const Vec3d toTarget = target - eye;
+    const double distance = glm::length(toTarget);
+    if (!(distance > 0.0) || !std::isfinite(distance)) {
+        throw base::UsageError("the camera's eye and target must be two different points");
+    }
+    if (!(verticalFovDegrees > 0.0 && verticalFovDegrees < 180.0)) {
+        throw base::UsageError("the camera's field of view must lie between 0 and 180 degrees");
+    }
+    scene::Camera camera;
+    camera.position = eye;
+    camera.forward = toTarget / distance;
+    // Looking straight up or down, north (-z) is up in the picture.
+    const bool isVertical = std::abs(camera.forward.y) > 1.0 - 1e-9;
+    camera.up = isVertical ? Vec3d(0.0, 0.0, -1.0) : Vec3d(0.0, 1.0, 0.0);
+    camera.verticalFov = verticalFovDegrees * base::kPi / 180.0;
+    return camera;
+}
+
+ClipRange clipRangeFor(const scene::Camera& camera, const base::Box& bounds) {
+    if (bounds.isEmpty()) {
+        return {0.01, 100.0};
+    }
+    const Vec3d farthestCorner =
+        glm::max(glm::abs(bounds.lower - camera.position), glm::abs(bounds.upper - camera.position));
+    // 24 bits of depth resolve z^2 / (nearest * 2^24): 1 mm at 18 m for 2 cm.
+    const double nearest = std::clamp(2e-3 * bounds.diagonal(), 1e-3, 0.02);
+    return {nearest, std::max(2.0 * nearest, 1.01 * glm::length(farthestCorner) + nearest)};
+}
+
+glm::mat4 clipFromWorld(const scene::Camera& camera, double aspect, const ClipRange& range) {
+    const glm::dmat4 view = glm::lookAt(camera.position, camera.position + camera.forward, camera.up);
+    return glm::mat4(glm::perspective(camera.verticalFov, aspect, range.nearest, range.farthest) * view);
+}
+
+}  // namespace fluxwalk::render

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/base/bounds.h"
+#include "core/scene/scene.h"
+
+namespace fluxwalk::render {
+
+/// Camera at `eye` that looks at `target`, upright. Throws base::UsageError where they coincide or the angle
+/// is not in (0, 180) degrees.
+scene::Camera lookAt(const base::Vec3d& eye, const base::Vec3d& target, double verticalFovDegrees);
+
+/// Distances along the view in metres between which the scene is drawn.
+struct ClipRange {
+    double nearest = 0.0;
+    double farthest = 0.0;
+};
+/// From close before the eye (a part of the scene's size) to behind the farthest corner of its box.
+ClipRange clipRangeFor(const scene::Camera& camera, const base::Box& bounds);
+
+/// World to GL clip space, for a picture `aspect` times as wide as high.
+glm::mat4 clipFromWorld(const scene::Camera& camera, double aspect, const ClipRange& range);
+
+}  // namespace fluxwalk::render

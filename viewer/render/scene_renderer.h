@@ -1,0 +1,73 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "viewer/render/gpu_mesh.h"
+#include "viewer/render/textures.h"
+#include "viewer/render/tone.h"
+
+namespace fluxwalk::render {
+
+/// How a scene is shown.
+struct DrawSettings {
+    double exposure = 1.0;  ///< per cd/m2
+    ToneCurve curve = ToneCurve::filmic;
+};
+
+/// Draws the lit sides of one scene.
+class SceneRenderer {
+  public:
+    SceneRenderer(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene);
+
+    /// The meshes to draw from now on. Those that are already on the GPU (same pointer) stay there. Returns
+    /// how many were sent.
+    std::size_t setMeshes(const scene::LitMeshes& meshes);
+    std::size_t triangleCount() const { return triangleCount_; }
+    const base::Box& bounds() const { return bounds_; }
+
+    /// Exposure for the present meshes (see automaticExposure).
+    double automaticExposure() const;
+
+    /// Draws into the bound target, over all of it.
+    void draw(const scene::Camera& camera, double aspect, const DrawSettings& settings);
+
+  private:
+    /// The uniforms of a program that applies tone.glsl.
+    struct ToneUniforms {
+        explicit ToneUniforms(const gl::Program& program)
+            : exposure(program.uniform("exposure")), curve(program.uniform("toneCurve")) {}
+        GLint exposure;
+        GLint curve;
+    };
+    struct LitUniforms {
+        explicit LitUniforms(const gl::Program& program);
+        GLint clipFromWorld, reflectanceTransform, emissionTransform, reflectanceSet, emissionSet,
+            reflectance, emission, alphaCutoff, reflectanceTexture, emissionTexture;
+    };
+
+    void setTone(const ToneUniforms& uniforms, const DrawSettings& settings) const;
+    void drawBackground(const scene::Camera& camera, const glm::mat4& clipFromWorld,
+                        const DrawSettings& settings) const;
+    void drawMesh(const GpuMesh& mesh);
+    void drawBlended(const scene::Camera& camera);
+
+    const gl::Functions& gl_;
+    std::shared_ptr<const scene::Scene> scene_;
+    gl::Program lit_;
+    LitUniforms litUniforms_;
+    ToneUniforms litTone_;
+    gl::Program background_;
+    ToneUniforms backgroundTone_;
+    gl::VertexArray noVertices_;
+    Textures textures_;
+    std::unordered_map<const scene::LitMesh*, GpuMesh> meshes_;
+    /// In the order given, so that pictures do not depend on addresses.
+    std::vector<const GpuMesh*> opaque_;
+    std::vector<const GpuMesh*> blended_;
+    base::Box bounds_;
+    std::size_t triangleCount_ = 0;
+};
+
+}  // namespace fluxwalk::render

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "core/scene/scene.h"
+#include "viewer/gl/objects.h"
+
+namespace fluxwalk::render {
+
+/// Texture coordinates to those of the picture: the KHR_texture_transform of a reference as an affine map.
+glm::mat3 texcoordTransform(const scene::TextureRef& texture);
+
+/// Mean of a picture's colours in linear light; of large pictures, of an even selection of 64k pixels.
+base::Rgb meanColor(const scene::Image& image);
+
+/// A scene's pictures on the GPU, sent when first used.
+class Textures {
+  public:
+    Textures(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene);
+
+    /// Binds the referenced picture, or white where there is none, to a texture unit.
+    void bind(unsigned unit, const scene::TextureRef& texture);
+    base::Rgb mean(const scene::TextureRef& texture);
+
+  private:
+    struct Loaded {
+        gl::Texture texture;
+        base::Rgb mean{1.0f};
+    };
+    Loaded& load(std::int32_t image);
+
+    const gl::Functions& gl_;
+    std::shared_ptr<const scene::Scene> scene_;
+    std::map<std::int32_t, Loaded> loaded_;
+};
+
+}  // namespace fluxwalk::render

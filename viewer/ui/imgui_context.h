@@ -1,0 +1,28 @@
+#pragma once
+
+struct GLFWwindow;
+struct ImGuiContext;
+
+namespace fluxwalk::ui {
+
+/// Dear ImGui with the theme and the font at a display's scale. One at a time; lives within the window if it
+/// is attached to one.
+class ImguiContext {
+  public:
+    /// Without a window (pictures, tests): the caller sets io.DisplaySize and the input.
+    explicit ImguiContext(float scale);
+    /// Fed by the window's events.
+    ImguiContext(float scale, GLFWwindow* window);
+    ~ImguiContext();
+    ImguiContext(const ImguiContext&) = delete;
+    ImguiContext& operator=(const ImguiContext&) = delete;
+
+    float scale() const { return scale_; }
+
+  private:
+    float scale_;
+    ImGuiContext* context_;
+    bool hasWindow_ = false;
+};
+
+}  // namespace fluxwalk::ui

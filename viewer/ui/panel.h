@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/solve/solver.h"
+#include "viewer/render/tone.h"
+#include "viewer/session/solver_session.h"
+#include "viewer/ui/exposure_control.h"
+#include "viewer/ui/walker.h"
+
+namespace fluxwalk::ui {
+
+/// What the user sets for the view.
+struct ViewSettings {
+    ExposureControl exposure;
+    render::ToneCurve curve = render::ToneCurve::filmic;
+    bool smoothEdges = true;
+    bool isPanelOpen = true;
+};
+
+/// What the panel tells.
+struct PanelInfo {
+    const scene::Scene* scene = nullptr;
+    /// Newest solution; null before the first.
+    const solve::Snapshot* snapshot = nullptr;
+    /// Empty where nothing is solved (a lit file).
+    std::optional<session::Status> session;
+    bool isPaused = false;
+    std::size_t triangleCount = 0;
+    double framesPerSecond = 0.0;  ///< 0 while the picture stands still
+    std::string renderer;
+};
+
+/// What the user did in one frame, beside changing the structures passed in.
+struct PanelActions {
+    bool changedOptions = false;
+    bool togglesPause = false;
+    /// Index of a scene camera to go to, -1 for none.
+    int camera = -1;
+};
+
+/// Draws the panel at the left edge of the window. `scale` is 1 at 96 dpi.
+PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Options& options, Walker& walker,
+                       float scale);
+
+/// Draws the keys along the bottom of the window.
+void drawKeys(bool isCaptured, Movement movement, float scale);
+
+/// Sections of the panel, each in its own file.
+void drawStatistics(const PanelInfo& info);
+void drawConvergence(const solve::Statistics& statistics, double target, float scale);
+
+}  // namespace fluxwalk::ui
