@@ -307,7 +307,7 @@ class Reconstruction {
 
 MeshValues reconstructValues(std::span<const Cell> cells, const MeshVertices& mesh,
                              std::span<const Leaf> leaves) {
-    return Reconstruction(cells, mesh, sources).run();
+    return Reconstruction(cells, mesh, leaves).run();
 }
 
 }  // namespace fluxwalk::display
