@@ -231,6 +231,17 @@ TEST_F(GltfBadInput, ChunkLengthsThatForgetTheirHeader) {
     expectError(test::errorOf(file), "second chunk");
 }
 
+TEST_F(GltfBadInput, NamesCannotWriteToTheTerminal) {
+    expectError(errorAfter([](json& r) {
+                    r["nodes"][0]["name"] = "a\nb\x1b[2J";
+                    r["nodes"][0]["children"] = {0};
+                }),
+                "/nodes/0 'a?b?[2J'");
+    GltfFixture copy = fixture_;
+    copy.root["extensionsUsed"] = {"X\nY"};
+    EXPECT_TRUE(test::hasWarning(copy.read(folder_), "X?Y is not supported"));
+}
+
 // A small file with some of everything, for the damage below.
 GltfFixture richFixture() {
     GltfFixture f;
