@@ -44,7 +44,7 @@ double estimateAmbient(const Problem& problem) {
     double flux = 0.0;
     double reflected = 0.0;
     for (const NodeId id : h.patches()) {
-        const double area = static_cast<double>(h.shape(id).exposedArea());
+        const auto area = static_cast<double>(h.shape(id).exposedArea());
         flux += area * static_cast<double>(base::channelMean(h.light(id).emission));
         reflected += area * static_cast<double>(base::channelMean(h.light(id).reflectance));
     }
