@@ -234,7 +234,7 @@ void drawKeys(bool isCaptured, Movement movement, float scale) {
     const char* other = movement == Movement::walk ? "F fly" : "F walk";
     ImGui::SetNextWindowPos(ImVec2(display.x - kMargin * scale, display.y - kMargin * scale),
                             ImGuiCond_Always, ImVec2(1.0f, 1.0f));
-    ImGui::SetNextWindowBgAlpha(0.55f);
+    ImGui::SetNextWindowBgAlpha(0.75f);
     if (ImGui::Begin("##keys", nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
