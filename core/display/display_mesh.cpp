@@ -62,17 +62,14 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
                scene::LitMesh& mesh, DisplayMeshes& out) {
     checkTiling(leaves);
     std::vector<Cell> cells;
-    std::vector<Rgb> sources;
     cells.reserve(leaves.size() + leaves.size() / 4);
-    sources.reserve(leaves.size());
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
         cells.push_back(makeCell(topology, leaves[i].patch, leaves[i].path, i));
-        sources.push_back(leaves[i].irradiance);
     }
     PointTable points(leaves.size() + leaves.size() / 4);
     balance(topology, points, cells);
     const MeshVertices vertices = collectVertices(topology, points, cells, options.creaseAngle);
-    const MeshValues values = reconstructValues(cells, vertices, sources);
+    const MeshValues values = reconstructValues(cells, vertices, leaves);
     const std::array<bool, 2> texcoords{options.texcoords[0] && topology.hasTexcoords(0),
                                         options.texcoords[1] && topology.hasTexcoords(1)};
     std::vector<std::uint32_t> firstTriangle =

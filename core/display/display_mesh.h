@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/display/leaf.h"
 #include "core/display/patch_topology.h"
 #include "core/scene/lit_mesh.h"
 #include "core/surface/region.h"
@@ -12,16 +13,6 @@
 /// From leaves of the solution to arrays for the GPU: balanced, without T-vertices, smooth within an object's
 /// creases.
 namespace fluxwalk::display {
-
-/// One leaf element of an object with its mean irradiance.
-struct Leaf {
-    std::uint32_t patch = 0;
-    bool back = false;
-    surface::Path path = surface::kRootPath;
-    base::Rgb irradiance{0.0f};  ///< lux, each channel
-    /// Part of its area outside other solids; values count in proportion, those of 0 not at all.
-    float exposed = 1.0f;
-};
 
 struct MeshOptions {
     /// Vertex values are not averaged across edges whose faces' normals differ by more (radians).

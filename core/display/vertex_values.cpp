@@ -32,6 +32,7 @@ struct Sample {
     Vec3 tangent{};
     Vec3 bitangent{};
     float size = 0.0f;  ///< metres
+    float exposed = 1.0f;
     Rgb irradiance{};
     std::array<Rgb, 2> gradient{};  ///< lux per metre along tangent and bitangent
     /// Range of the leaf, its neighbours, and what it extrapolates to on borders.
@@ -57,9 +58,9 @@ Vec3 directionTo(const Vec3& d) {
 
 class Reconstruction {
   public:
-    Reconstruction(std::span<const Cell> cells, const MeshVertices& mesh, std::span<const Rgb> sources)
+    Reconstruction(std::span<const Cell> cells, const MeshVertices& mesh, std::span<const Leaf> leaves)
         : cells_(cells), mesh_(mesh), origin_(mesh.positions.front()) {
-        makeSamples(sources);
+        makeSamples(leaves);
         findIncident();
     }
 
@@ -89,12 +90,13 @@ class Reconstruction {
         return cell.cornerCount == 3 ? three / 3.0f : 0.25f * (three + corner(cell, 3));
     }
 
-    void makeSamples(std::span<const Rgb> sources) {
-        samples_.resize(sources.size());
+    void makeSamples(std::span<const Leaf> leaves) {
+        samples_.resize(leaves.size());
         std::uint32_t cell = 0;
         for (std::uint32_t s = 0; s < samples_.size(); ++s) {
             Sample& sample = samples_[s];
-            sample.irradiance = sources[s];
+            sample.irradiance = leaves[s].irradiance;
+            sample.exposed = leaves[s].exposed;
             sample.firstCell = cell;
             Vec3 normal(0.0f);
             Vec3 moment(0.0f);
@@ -152,11 +154,14 @@ class Reconstruction {
         incident_.resize(begin_[valueCount]);
         end_.assign(begin_.begin(), begin_.end() - 1);
         std::vector<Vec3> towardsCells(valueCount, Vec3(0.0f));
+        std::vector<float> cellsAround(valueCount, 0.0f);
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             const std::uint32_t source = cells_[i].source;
             const Vec3 center = middleOfCell(cells_[i]);
+            const float exposed = samples_[source].exposed;
             forValues(i, [&](std::uint32_t v) {
-                towardsCells[v] += directionTo(center - positionOf(mesh_.pointOfValue[v]));
+                towardsCells[v] += exposed * directionTo(center - positionOf(mesh_.pointOfValue[v]));
+                cellsAround[v] += exposed;
                 // Cells of one leaf follow each other: it was added last if it was added at all.
                 if (end_[v] == begin_[v] || incident_[end_[v] - 1] != source) {
                     incident_[end_[v]++] = source;
@@ -165,7 +170,7 @@ class Reconstruction {
         }
         border_.resize(valueCount);
         for (std::size_t v = 0; v < valueCount; ++v) {
-            const float bias = glm::length(towardsCells[v]) / static_cast<float>(begin_[v + 1] - begin_[v]);
+            const float bias = cellsAround[v] > 0.0f ? glm::length(towardsCells[v]) / cellsAround[v] : 0.0f;
             border_[v] = glm::clamp((bias - kInnerBias) / (kBorderBias - kInnerBias), 0.0f, 1.0f);
         }
     }
@@ -188,10 +193,10 @@ class Reconstruction {
         const auto addNeighbour = [&](const Sample& other) {
             const base::Vec2 d = sample.inFrame(other.center);
             const float squared = glm::dot(d, d);
-            if (!(squared > 0.0f)) {
+            if (!(squared > 0.0f) || other.exposed <= 0.0f) {
                 return;
             }
-            const float weight = std::min(1.0f, other.size / sample.size) / squared;
+            const float weight = other.exposed * std::min(1.0f, other.size / sample.size) / squared;
             const Rgb rise = other.irradiance - sample.irradiance;
             const float x = weight * d.x;
             const float y = weight * d.y;
@@ -245,18 +250,27 @@ class Reconstruction {
     Rgb valueAt(std::uint32_t value) const {
         const Vec3 p = positionOf(mesh_.pointOfValue[value]);
         const auto leaves = incident(value);
-        const Sample& first = samples_[leaves[0]];
+        std::size_t shown = 0;
+        while (shown + 1 < leaves.size() && samples_[leaves[shown]].exposed <= 0.0f) {
+            ++shown;
+        }
+        const Sample& first = samples_[leaves[shown]];
         // Sums of differences: those of a constant vanish exactly.
         Rgb sum(0.0f);
         Rgb least = first.least;
         Rgb most = first.most;
+        float weights = 0.0f;
         for (const std::uint32_t s : leaves) {
             const Sample& sample = samples_[s];
-            sum += (sample.irradiance - first.irradiance) + sample.rise(p);
+            if (sample.exposed <= 0.0f) {
+                continue;
+            }
+            sum += sample.exposed * ((sample.irradiance - first.irradiance) + sample.rise(p));
+            weights += sample.exposed;
             least = glm::min(least, sample.least);
             most = glm::max(most, sample.most);
         }
-        const Rgb mean = first.irradiance + sum / static_cast<float>(leaves.size());
+        const Rgb mean = first.irradiance + (weights > 0.0f ? sum / weights : Rgb(0.0f));
         const Rgb range = most - least;
         const Rgb below = kLowerMargin * glm::min(range, glm::max(least, Rgb(0.0f)));
         return glm::max(glm::clamp(mean, least - below, most + kUpperMargin * range), Rgb(0.0f));
@@ -292,8 +306,8 @@ class Reconstruction {
 }  // namespace
 
 MeshValues reconstructValues(std::span<const Cell> cells, const MeshVertices& mesh,
-                             std::span<const Rgb> sources) {
-    return Reconstruction(cells, mesh, sources).run();
+                             std::span<const Leaf> leaves) {
+    return Reconstruction(cells, mesh, leaves).run();
 }
 
 }  // namespace fluxwalk::display

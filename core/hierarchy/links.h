@@ -45,13 +45,13 @@ struct GradientCode {
 };
 
 /// Transport between an unordered pair of nodes: one symmetric coefficient serves both directions, so
-/// reciprocity is exact. H_a += coupling * visibility * x_b B_b / A_a and the other way round, with x the
-/// exposed fraction of a node. Where `b` is a light source without area, coupling is A_a times the mean over
-/// `a` of cos / r2 (or cos, or the view of the sky) and there is no way back.
+/// reciprocity is exact. H_a += coupling * visibility * B_b / A_a and the other way round, A being exposed
+/// areas. Where `b` is a light source without area, coupling is A_a times the mean over `a` of cos / r2 (or
+/// cos, or the view of the sky) and there is no way back.
 struct Link {
     NodeId a{};
     NodeId b{};
-    float coupling = 0.0f;  ///< unoccluded g = A_a F(a<-b) in m2, over the whole of both
+    float coupling = 0.0f;  ///< unoccluded g = A_a F(a<-b) in m2, between the exposed parts
     /// Visibility in 1/32767 steps; the top bit marks it as certain (an empty shaft).
     std::uint16_t visibilityBits = 0;
     std::uint8_t spreadA =

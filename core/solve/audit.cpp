@@ -110,13 +110,14 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
             const NodeId source = link.a == id ? link.b : link.a;
             if (h.kind(source) == NodeKind::element) {
                 const float factor = scale.empty() ? 1.0f : scale[i] * scale[base::index(source)];
-                sum += static_cast<double>(factor * link.transfer() * h.shape(source).exposed);
+                sum += static_cast<double>(factor * link.transfer());
             }
         }
         const NodeId parent = h.parent(id);
         const bool isPatch = parent == NodeId::none || h.kind(parent) == NodeKind::cluster;
-        sums[i] = static_cast<float>(sum / static_cast<double>(h.shape(id).area)) +
-                  (isPatch ? 0.0f : sums[base::index(parent)]);
+        const double area = static_cast<double>(h.shape(id).exposedArea());
+        sums[i] =
+            static_cast<float>(area > 0.0 ? sum / area : 0.0) + (isPatch ? 0.0f : sums[base::index(parent)]);
     }
     for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
         if (h.kind(NodeId{i}) == NodeKind::element && !h.isLeaf(NodeId{i})) {
@@ -141,8 +142,7 @@ Audit auditEnergy(const Problem& problem, std::size_t rayCount) {
         Vec3d arrived(0.0);
         for (const std::uint32_t l : problem.links.endingAt(id)) {
             const hierarchy::Link& link = problem.links.links[l];
-            arrived +=
-                Vec3d(h.light(id).radiosity) * static_cast<double>(link.transfer() * h.shape(link.a).exposed);
+            arrived += Vec3d(h.light(id).radiosity) * static_cast<double>(link.transfer());
         }
         audit.emitted += arrived;
     }

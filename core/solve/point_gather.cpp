@@ -6,6 +6,7 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/transport/element_sampler.h"
 #include "core/transport/form_factor.h"
 
 namespace fluxwalk::solve {
@@ -68,7 +69,7 @@ class PointGather {
             return;
         }
         const transport::ElementPoints points = transport::makeElementPoints(h_, source);
-        const double factor = transport::computePointFactor(x_, n_, points);
+        const double factor = transport::computePointFactor(x_, n_, points) * exposedShare(source);
         const hierarchy::Light& light = h_.light(source);
         const bool isNear =
             !shape.isPlanar && glm::length(toSource) < 6.0 * static_cast<double>(shape.radius);
@@ -85,7 +86,28 @@ class PointGather {
             return;
         }
         const double visibility = isOpen ? 1.0 : sampleVisibility(source, contribution);
-        sum_ += factor * visibility * static_cast<double>(shape.exposed) * Vec3d(light.radiosity);
+        sum_ += factor * visibility * Vec3d(light.radiosity);
+    }
+
+    // Part of the source's kernel at the point that comes from its exposed cells.
+    double exposedShare(NodeId source) const {
+        const std::uint16_t cells = h_.shape(source).exposedCells;
+        if (cells == 0xffff) {
+            return 1.0;
+        }
+        const transport::ElementSampler sampler(h_, source);
+        double all = 0.0;
+        double exposed = 0.0;
+        for (unsigned cell = 0; cell < 16; ++cell) {
+            const transport::SurfaceSample p = sampler.at({(cell % 4 + 0.5) * 0.25, (cell / 4 + 0.5) * 0.25});
+            const Vec3d d = p.position - x_;
+            const double r2 = std::max(glm::dot(d, d), 1e-300);
+            const double kernel = p.measure * std::max(0.0, glm::dot(n_, d)) *
+                                  std::max(0.0, -glm::dot(p.normal, d)) / (r2 * r2);
+            all += kernel;
+            exposed += (cells >> cell & 1u) != 0 ? kernel : 0.0;
+        }
+        return all > 0.0 ? exposed / all : static_cast<double>(h_.shape(source).exposed);
     }
 
     static unsigned chooseSide(float contribution) {

@@ -137,7 +137,7 @@ class Refinement {
         const Shape& shapeB = hierarchy_.shape(link.b);
         const bool isOneWay = hierarchy_.kind(link.b) != NodeKind::element;
         transport::LinkBounds k;
-        k.coupling = link.coupling * shapeA.exposed * (isOneWay ? 1.0f : shapeB.exposed);
+        k.coupling = link.coupling;
         k.visibility = link.visibility();
         k.visibilityUpper = visibilityUpper;
         k.isMixed = isMixed;

@@ -78,7 +78,7 @@ void Sweeper::gather(const Block& block) {
                 const hierarchy::Link& link = links[l];
                 const bool isA = link.a == id;
                 const NodeId source = isA ? link.b : link.a;
-                float transfer = link.transfer() * h.shape(source).exposed;
+                float transfer = link.transfer();
                 if (isScaled) {
                     transfer *= problem_.rowScale[base::index(source)];
                 }
@@ -96,7 +96,8 @@ void Sweeper::gather(const Block& block) {
                 slopeT += power * here.y;
             }
             const double scale = isScaled ? static_cast<double>(problem_.rowScale[base::index(id)]) : 1.0;
-            const double perArea = scale / static_cast<double>(h.shape(id).area);
+            const double area = static_cast<double>(h.shape(id).exposedArea());
+            const double perArea = area > 0.0 ? scale / area : 0.0;
             LinearIrradiance& out = gathered_[base::index(id)];
             out.mean = Rgb(sum * perArea);
             out.s = slopeS * static_cast<float>(perArea);

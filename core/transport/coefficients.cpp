@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/photometry.h"
+#include "core/transport/element_sampler.h"
 #include "core/transport/form_factor.h"
 #include "core/transport/shaft.h"
 #include "core/transport/visibility.h"
@@ -55,6 +57,33 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
     out.evaluations = base::kLanes;
 }
 
+// Part of the exchange with `other` that the exposed cells of an element take, by the kernel at the cells'
+// middles: what is hidden under a solid is often out of sight of the other end anyway.
+double exposedShare(const hierarchy::Hierarchy& h, NodeId id, const ElementPoints& other) {
+    const std::uint16_t cells = h.shape(id).exposedCells;
+    if (cells == 0xffff) {
+        return 1.0;
+    }
+    const ElementSampler sampler(h, id);
+    double all = 0.0;
+    double exposed = 0.0;
+    for (unsigned cell = 0; cell < 16; ++cell) {
+        const SurfaceSample p = sampler.at({(cell % 4 + 0.5) * 0.25, (cell / 4 + 0.5) * 0.25});
+        double kernel = 0.0;
+        for (int j = 0; j < 4; ++j) {
+            const Vec3d d = Vec3d(other.position.x[j], other.position.y[j], other.position.z[j]) - p.position;
+            const Vec3d n(other.normal.x[j], other.normal.y[j], other.normal.z[j]);
+            const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(n, d));
+            const double r2 = glm::dot(d, d);
+            kernel += p.measure * other.weight[j] * cosines /
+                      std::max(r2 * (base::kPi * r2 + 0.25 * other.area), 1e-300);
+        }
+        all += kernel;
+        exposed += (cells >> cell & 1u) != 0 ? kernel : 0.0;
+    }
+    return all > 0.0 ? exposed / all : static_cast<double>(h.shape(id).exposed);
+}
+
 }  // namespace
 
 float visibilityUpperBound(float visibility, unsigned rays) {
@@ -90,7 +119,8 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         out.spreadB = static_cast<float>(factor.spreadB);
         out.evaluations = static_cast<std::uint16_t>(factor.evaluations);
     }
-    out.coupling = static_cast<float>(coupling);
+    out.coupling = static_cast<float>(coupling * exposedShare(hierarchy_, query.a, b) *
+                                      exposedShare(hierarchy_, query.b, a));
     if (out.coupling <= 0.0f || query.isOpen) {
         out.isOpen = query.isOpen;
         return out;
@@ -117,6 +147,7 @@ Coefficient CoefficientService::fromSource(const Query& query) const {
     Coefficient out;
     const ElementPoints a = makeElementPoints(hierarchy_, query.a);
     factorFromSource(a, hierarchy_, query.b, out);
+    out.coupling *= hierarchy_.shape(query.a).exposed;
     if (out.coupling <= 0.0f) {
         return out;
     }

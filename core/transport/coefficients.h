@@ -20,7 +20,7 @@ struct Query {
 
 /// What a pair exchanges. `b` may be a light source.
 struct Coefficient {
-    float coupling = 0.0f;  ///< unoccluded, m2, over the whole of both
+    float coupling = 0.0f;  ///< unoccluded, m2, between the exposed parts
     float visibility = 1.0f;
     base::Vec2 gradientA{0.0f};  ///< of the kernel over a, relative (PairFactor)
     base::Vec2 gradientB{0.0f};

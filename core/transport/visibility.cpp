@@ -6,12 +6,12 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/transport/element_sampler.h"
 
 namespace fluxwalk::transport {
 
 namespace {
 
-using base::Vec2d;
 using base::Vec3d;
 
 /// Uniform numbers of 16 bits each, four from one mix: strata are far coarser than that.
@@ -32,65 +32,6 @@ struct Jitter {
         z = (z + 0.5) * kScale;
         w = (w + 0.5) * kScale;
     }
-};
-
-struct SurfaceSample {
-    Vec3d position;
-    Vec3d normal;
-    double measure;
-};
-
-/// Points of an element's exposed part, one in each of n = side x side strata.
-class ElementSampler {
-  public:
-    ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id)
-        : shape_(hierarchy.shape(id)), surface_(hierarchy.surfaceOf(id)), name_(hierarchy.name(id)) {
-        if (!shape_.isPlanar) {
-            region_ = hierarchy.region(id);
-        }
-        for (unsigned cell = 0; cell < 16; ++cell) {
-            if ((shape_.exposedCells >> cell & 1u) != 0) {
-                cells_[cellCount_++] = static_cast<std::uint8_t>(cell);
-            }
-        }
-        for (std::uint32_t i = 0; i < shape_.cornerCount; ++i) {
-            corners_[i] = Vec3d(shape_.corners[i]);
-        }
-        axis_ = Vec3d(shape_.axis);
-    }
-
-    SurfaceSample at(unsigned stratum, unsigned side, double jx, double jy) const {
-        Vec2d st((stratum % side + jx) / side, (stratum / side + jy) / side);
-        if (cellCount_ < 16) {
-            const double place = (stratum + 0.5) * cellCount_ / (static_cast<double>(side) * side);
-            const unsigned cell = cells_[std::min(cellCount_ - 1, static_cast<unsigned>(place))];
-            st = Vec2d((cell % 4 + jx) * 0.25, (cell / 4 + jy) * 0.25);
-        }
-        if (!shape_.isPlanar) {
-            const surface::RegionPoint where = surface::mapToRegion(region_, st);
-            const surface::SurfacePoint p = surface_.evaluate(name_.patch, where.uv);
-            return {p.position, name_.back ? -p.normal : p.normal, p.jacobian * where.jacobian};
-        }
-        // Corners of a back side run the other way round, which mirrors the region's second coordinate.
-        const double s = st.x;
-        const double t = name_.back ? 1.0 - st.y : st.y;
-        const auto& c = corners_;
-        if (shape_.cornerCount == 3) {
-            const double root = std::sqrt(s);
-            return {(root * (1.0 - t)) * c[0] + (1.0 - root) * c[1] + (t * root) * c[2], axis_, 1.0};
-        }
-        return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_, 1.0};
-    }
-
-  private:
-    const hierarchy::Shape& shape_;
-    const surface::Surface& surface_;
-    hierarchy::ElementName name_;
-    surface::Region region_;
-    std::array<Vec3d, 4> corners_{};
-    Vec3d axis_{};
-    std::array<std::uint8_t, 16> cells_{};
-    unsigned cellCount_ = 0;
 };
 
 struct Stage {
@@ -122,8 +63,8 @@ Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const Eleme
     unsigned used = 0;
     for (unsigned i = 0; i < count; ++i) {
         const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
-        const SurfaceSample p = a.at(i, side, jitter.x, jitter.y);
-        const SurfaceSample q = b.at((i * factor ^ mask) & (count - 1), side, jitter.z, jitter.w);
+        const SurfaceSample p = a.inStratum(i, side, jitter.x, jitter.y);
+        const SurfaceSample q = b.inStratum((i * factor ^ mask) & (count - 1), side, jitter.z, jitter.w);
         const Vec3d d = q.position - p.position;
         const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
         const double r2 = glm::dot(d, d);
@@ -193,7 +134,7 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
     unsigned used = 0;
     for (unsigned i = 0; i < side * side; ++i) {
         const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
-        const SurfaceSample p = sampler.at(i, side, jitter.x, jitter.y);
+        const SurfaceSample p = sampler.inStratum(i, side, jitter.x, jitter.y);
         rays::Ray ray;
         double weight = p.measure;
         if (isSky) {

@@ -1,0 +1,52 @@
+#include "core/transport/element_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluxwalk::transport {
+
+ElementSampler::ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id)
+    : shape_(hierarchy.shape(id)),
+      surface_(hierarchy.surfaceOf(id)),
+      name_(hierarchy.name(id)),
+      axis_(hierarchy.shape(id).axis) {
+    if (!shape_.isPlanar) {
+        region_ = hierarchy.region(id);
+    }
+    for (unsigned cell = 0; cell < 16; ++cell) {
+        if ((shape_.exposedCells >> cell & 1u) != 0) {
+            cells_[cellCount_++] = static_cast<std::uint8_t>(cell);
+        }
+    }
+    for (std::uint32_t i = 0; i < shape_.cornerCount; ++i) {
+        corners_[i] = Vec3d(shape_.corners[i]);
+    }
+}
+
+SurfaceSample ElementSampler::at(const base::Vec2d& st) const {
+    if (!shape_.isPlanar) {
+        const surface::RegionPoint where = surface::mapToRegion(region_, st);
+        const surface::SurfacePoint p = surface_.evaluate(name_.patch, where.uv);
+        return {p.position, name_.back ? -p.normal : p.normal, p.jacobian * where.jacobian};
+    }
+    // Corners of a back side run the other way round, which mirrors the region's second coordinate.
+    const double s = st.x;
+    const double t = name_.back ? 1.0 - st.y : st.y;
+    const auto& c = corners_;
+    if (shape_.cornerCount == 3) {
+        const double root = std::sqrt(s);
+        return {(root * (1.0 - t)) * c[0] + (1.0 - root) * c[1] + (t * root) * c[2], axis_, 1.0};
+    }
+    return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_, 1.0};
+}
+
+SurfaceSample ElementSampler::inStratum(unsigned stratum, unsigned side, double jx, double jy) const {
+    if (cellCount_ == 16) {
+        return at({(stratum % side + jx) / side, (stratum / side + jy) / side});
+    }
+    const double place = (stratum + 0.5) * cellCount_ / (static_cast<double>(side) * side);
+    const unsigned cell = cells_[std::min(cellCount_ - 1, static_cast<unsigned>(place))];
+    return at({(cell % 4 + jx) * 0.25, (cell / 4 + jy) * 0.25});
+}
+
+}  // namespace fluxwalk::transport

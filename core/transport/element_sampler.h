@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/hierarchy/hierarchy.h"
+
+namespace fluxwalk::transport {
+
+using base::NodeId;
+using base::Vec3d;
+
+/// Point of an element's true surface with its normal, towards the side that takes part, and relative area
+/// measure.
+struct SurfaceSample {
+    Vec3d position{};
+    Vec3d normal{};
+    double measure = 1.0;
+};
+
+/// Points of one element; the hierarchy must stay as it is meanwhile.
+class ElementSampler {
+  public:
+    ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id);
+
+    /// Point at coordinates of the region's unit square.
+    SurfaceSample at(const base::Vec2d& st) const;
+
+    /// Point of the exposed part in one of side x side strata, at (jx, jy) in [0, 1)^2 within it.
+    SurfaceSample inStratum(unsigned stratum, unsigned side, double jx, double jy) const;
+
+  private:
+    const hierarchy::Shape& shape_;
+    const surface::Surface& surface_;
+    hierarchy::ElementName name_;
+    surface::Region region_;
+    std::array<Vec3d, 4> corners_{};
+    Vec3d axis_{};
+    std::array<std::uint8_t, 16> cells_{};
+    unsigned cellCount_ = 0;
+};
+
+}  // namespace fluxwalk::transport
