@@ -98,7 +98,7 @@ void expectPullConservesPower(Problem& problem) {
     solve::Sweeper(problem).sweep();
     for (const NodeId patch : problem.hierarchy.patches()) {
         const std::vector<NodeId> leaves = leavesBelow(problem.hierarchy, patch);
-        EXPECT_GT(leaves.size(), 4u);
+        EXPECT_GE(leaves.size(), 4u);
         expectEqual(powerOf(problem, {patch}), powerOf(problem, leaves), 1e-6);
     }
 }
@@ -125,17 +125,15 @@ Vec3d deliveredPower(const Problem& problem) {
     Vec3d sum(0.0);
     for (const hierarchy::Link& link : problem.links.links) {
         for (const bool toA : {true, false}) {
-            const NodeId receiver = toA ? link.a : link.b;
             const NodeId source = toA ? link.b : link.a;
             const base::Vec2 slope = (toA ? link.gradientB : link.gradientA).decode();
             const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(source).cornerCount);
             const hierarchy::Light& light = h.light(source);
-            const float gain = link.transfer() * h.shape(source).exposed * h.shape(receiver).exposed;
             Rgb sent = light.radiosity;
             for (int c = 0; c < 3; ++c) {
                 sent[c] += frame.product(slope, {light.slopeS[c], light.slopeT[c]});
             }
-            sum += static_cast<double>(gain) * Vec3d(sent);
+            sum += static_cast<double>(link.transfer()) * Vec3d(sent);
         }
     }
     return sum;
