@@ -45,7 +45,9 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
     if (!(total > 0.0)) {
         return Vec3d(0.0);
     }
-    const double offset = base::toUnit(base::mix(problem.options.seed));
+    base::RandomStream shifts(problem.options.seed);
+    const double offset = shifts.next();
+    const base::Vec2d shift = shifts.next2();
     std::vector<Vec3d> escaped(leaves.size(), Vec3d(0.0));
     problem.executor.forRange(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -73,9 +75,10 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
                 const surface::SurfacePoint p =
                     surface.evaluate(name.patch, surface::mapToRegion(region, st).uv);
                 const Vec3d n = name.back ? -p.normal : p.normal;
-                const double u = random.next();
-                const auto hit = problem.rays.closest(
-                    problem.rays.halfLine(p.position, n, cosineDirection(n, u, random.next())));
+                // Successive rays, and so those of neighbours, cover the directions evenly.
+                const base::Vec2d u = base::r2Point(static_cast<std::uint64_t>(k), shift);
+                const auto hit =
+                    problem.rays.closest(problem.rays.halfLine(p.position, n, cosineDirection(n, u.x, u.y)));
                 escaped[i] += hit ? Vec3d(0.0) : worth;
             }
         }

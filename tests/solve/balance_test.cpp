@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include "core/scene/builders.h"
+#include "core/solve/audit.h"
+#include "tests/support/solving.h"
+
+// Check 24 in closed scenes: what the lights emit is absorbed, to 1e-4 once the sweeps have converged.
+
+namespace fluxwalk {
+
+namespace {
+
+using test::Problem;
+
+double defectOf(Problem& problem) {
+    test::converge(problem, 1e-9);
+    const solve::Audit audit = solve::auditEnergy(problem, 1000);
+    EXPECT_TRUE(audit.isClosed);
+    EXPECT_EQ(audit.escaped, base::Vec3d(0.0));
+    EXPECT_GT(audit.emitted.y, 0.0);
+    return audit.relativeDefect();
+}
+
+}  // namespace
+
+// Rows of direct links only, as in check 7.
+TEST(Balance, closedFurnace) {
+    solve::Options options;
+    options.minArea = .004;
+    const auto problem = test::makeProblem(scene::buildFurnace(.5f, false), options);
+    test::refine(*problem, 1e-9);
+    EXPECT_LE(defectOf(*problem), 1e-4);
+}
+
+TEST(Balance, emptyCube) {
+    solve::Options options;
+    options.minArea = .2;
+    const auto problem = test::makeProblem(scene::buildCie58(.5f), options);
+    test::refine(*problem, 1e-9);
+    EXPECT_LE(defectOf(*problem), 1e-4);
+}
+
+// Light that is lost on the way shows in the audit, as it is no remainder.
+TEST(Balance, showsWhatIsMissing) {
+    solve::Options options;
+    options.minArea = .2;
+    const auto problem = test::makeProblem(scene::buildCie58(.5f), options);
+    test::refine(*problem, 1e-9);
+    for (hierarchy::Link& link : problem->links.links) {
+        link.coupling *= problem->hierarchy.kind(link.b) == hierarchy::NodeKind::element ? .98f : 1.0f;
+    }
+    EXPECT_NEAR(defectOf(*problem), .02, .002);
+}
+
+// Before it has converged, the balance is open by what still travels.
+TEST(Balance, showsWhatStillTravels) {
+    solve::Options options;
+    options.minArea = .2;
+    const auto problem = test::makeProblem(scene::buildCie58(.9f), options);
+    test::refine(*problem, 1e-9);
+    solve::Sweeper(*problem).sweep();
+    EXPECT_GT(solve::auditEnergy(*problem, 1000).relativeDefect(), .1);
+}
+
+}  // namespace fluxwalk
