@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <functional>
 #include <limits>
 
@@ -11,20 +13,31 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Wall time that can be stopped while the bench itself works.
+/// Time that can be stopped while the bench itself works.
 class Stopwatch {
   public:
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_ - paused_).count(); }
+    Duration read() const {
+        return {std::chrono::duration<double>(Clock::now() - start_).count(),
+                static_cast<double>(std::clock() - cpuStart_) / CLOCKS_PER_SEC};
+    }
     void exclude(const std::function<void()>& work) {
         const Clock::time_point begin = Clock::now();
+        const std::clock_t cpuBegin = std::clock();
         work();
-        paused_ += Clock::now() - begin;
+        start_ += Clock::now() - begin;
+        cpuStart_ += std::clock() - cpuBegin;
     }
 
   private:
     Clock::time_point start_ = Clock::now();
-    Clock::duration paused_{};
+    std::clock_t cpuStart_ = std::clock();
 };
+
+void keepFaster(Duration& best, const Duration& other) {
+    if (other.seconds < best.seconds) {
+        best = other;
+    }
+}
 
 TrueErrors readErrors(const Setting& setting, const solve::Solver& solver) {
     const SensorErrors sensors(solver.problem(), *setting.reference);
@@ -36,7 +49,6 @@ TrueErrors readErrors(const Setting& setting, const solve::Solver& solver) {
 
 FirstSnapshot measureFirstSnapshot(const Setting& setting) {
     FirstSnapshot result;
-    result.seconds = std::numeric_limits<double>::infinity();
     for (unsigned i = 0; i < setting.repeats; ++i) {
         std::shared_ptr<const solve::Snapshot> first;
         const Stopwatch watch;
@@ -44,7 +56,7 @@ FirstSnapshot measureFirstSnapshot(const Setting& setting) {
         solve::Callbacks callbacks;
         callbacks.publish = [&](std::shared_ptr<const solve::Snapshot> snapshot) {
             if (!first) {
-                result.seconds = std::min(result.seconds, watch.seconds());
+                keepFaster(result.duration, watch.read());
                 first = std::move(snapshot);
             }
         };
@@ -80,16 +92,16 @@ std::vector<Level> measureLevels(const Setting& setting, solve::ErrorOf what, do
                 return;
             }
             sweeps = solver.statistics().counters.sweeps;
-            const double seconds = watch.seconds();
+            const Duration duration = watch.read();
             if (i > 0) {
-                levels[count].seconds = std::min(levels[count].seconds, seconds);
+                keepFaster(levels[count].duration, duration);
                 isDone = ++count == levels.size();
                 return;
             }
             watch.exclude([&] {
-                levels.push_back({seconds, solver.statistics(), readErrors(setting, solver)});
+                levels.push_back({duration, solver.statistics(), readErrors(setting, solver)});
             });
-            isDone = levels.back().errors.of(what) <= error || seconds > setting.secondsLimit;
+            isDone = levels.back().errors.of(what) <= error || duration.seconds > setting.secondsLimit;
         };
         solver.solve(callbacks);
     }
@@ -102,8 +114,20 @@ const Level* firstBelow(std::span<const Level> levels, solve::ErrorOf what, doub
     return found == levels.end() ? nullptr : &*found;
 }
 
+std::optional<double> interpolateSeconds(std::span<const Level> levels, solve::ErrorOf what, double error) {
+    const Level* below = firstBelow(levels, what, error);
+    if (below == nullptr || below == levels.data()) {
+        return std::nullopt;
+    }
+    const Level& above = *(below - 1);
+    const double from = above.errors.of(what);
+    const double to = std::max(below->errors.of(what), 1e-3 * error);
+    const double part = std::log(from / error) / std::log(from / to);
+    return above.duration.seconds * std::pow(below->duration.seconds / above.duration.seconds, part);
+}
+
 ClosedLoop measureClosedLoop(const Setting& setting, solve::ErrorOf what, double error) {
-    ClosedLoop result{what, error, std::numeric_limits<double>::infinity(), false, {}, {}};
+    ClosedLoop result{what, error, {}, false, {}, {}};
     solve::Options options;
     options.error = error;
     options.errorOf = what;
@@ -112,9 +136,9 @@ ClosedLoop measureClosedLoop(const Setting& setting, solve::ErrorOf what, double
         const Stopwatch watch;
         solve::Solver solver(setting.scene, options, setting.threads);
         const solve::Outcome outcome = solver.solve({});
-        const double seconds = watch.seconds();
-        if (seconds < result.seconds) {
-            result.seconds = seconds;
+        const Duration duration = watch.read();
+        if (duration.seconds < result.duration.seconds) {
+            result.duration = duration;
             result.statistics = solver.statistics();
             result.isReached = outcome == solve::Outcome::reachedError;
         }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,8 +34,13 @@ struct TrueErrors {
     }
 };
 
+struct Duration {
+    double seconds = std::numeric_limits<double>::infinity();
+    double cpuSeconds = 0.0;  ///< of all threads, in the same run: hardly depends on other work
+};
+
 struct FirstSnapshot {
-    double seconds = 0.0;
+    Duration duration;
     double error = 0.0;  ///< p of its meshes
     std::uint64_t links = 0;
     std::uint64_t leaves = 0;
@@ -41,7 +48,7 @@ struct FirstSnapshot {
 FirstSnapshot measureFirstSnapshot(const Setting& setting);
 
 struct Level {
-    double seconds = 0.0;  ///< evaluation of the true error left out
+    Duration duration;  ///< from the start; evaluation of the true error left out
     solve::Statistics statistics;
     TrueErrors errors;
 };
@@ -51,10 +58,14 @@ std::vector<Level> measureLevels(const Setting& setting, solve::ErrorOf what, do
 /// The first level whose error is at most `error`; nullptr where none is.
 const Level* firstBelow(std::span<const Level> levels, solve::ErrorOf what, double error);
 
+/// Seconds at which the error passes `error` on a straight line between levels in logarithms: moves less by
+/// chance than the first level below. Nothing where no level is below, or already the first.
+std::optional<double> interpolateSeconds(std::span<const Level> levels, solve::ErrorOf what, double error);
+
 struct ClosedLoop {
     solve::ErrorOf what{};
     double requested = 0.0;
-    double seconds = 0.0;
+    Duration duration;
     bool isReached = false;  ///< false: out of time
     solve::Statistics statistics;
     TrueErrors errors;

@@ -72,7 +72,7 @@ void runScene(const Arguments& arguments) {
     report.sensorCount = reference.points.size();
     report.hiddenCount = reference.hiddenCount;
     report.meanIrradiance = meanIrradiance(reference.points);
-    report.referenceNoise = std::sqrt(noiseSquare(reference.points)) / report.meanIrradiance;
+    report.noise = noiseOf(reference.points);
 
     const Setting setting{std::make_shared<const scene::Scene>(sceneOf(arguments.scene)), &reference.points,
                           arguments.threads, arguments.repeats, arguments.secondsLimit};

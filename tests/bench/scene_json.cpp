@@ -36,7 +36,8 @@ Json levels(const std::vector<Level>& levels) {
     Json json = Json::array();
     for (const Level& level : levels) {
         json.push_back({{"threshold", level.statistics.threshold},
-                        {"seconds", level.seconds},
+                        {"seconds", level.duration.seconds},
+                        {"cpuSeconds", level.duration.cpuSeconds},
                         {"work", work(level.statistics)},
                         {"estimatedError", level.statistics.estimatedError},
                         {"errors", errors(level.errors)}});
@@ -49,7 +50,8 @@ Json loop(const ClosedLoop& loop, const TransportCosts& costs, unsigned threads)
     const RefineShares s = estimateShares(costs, loop.statistics, threads);
     return {{"of", nameOf(loop.what)},
             {"requested", loop.requested},
-            {"seconds", loop.seconds},
+            {"seconds", loop.duration.seconds},
+            {"cpuSeconds", loop.duration.cpuSeconds},
             {"isReached", loop.isReached},
             {"estimatedError", loop.statistics.estimatedError},
             {"work", work(loop.statistics)},
@@ -86,7 +88,9 @@ Json timesToError(const SceneReport& r, const Targets& targets) {
                    {"targetSeconds", target.seconds},
                    {"seconds", nullptr}};
         if (level != nullptr) {
-            entry["seconds"] = level->seconds;
+            entry["seconds"] = level->duration.seconds;
+            const auto between = interpolateSeconds(r.levels(target.what), target.what, target.error);
+            entry["interpolatedSeconds"] = between ? Json(*between) : Json();
             entry["work"] = work(level->statistics);
         }
         json.push_back(entry);
@@ -106,9 +110,10 @@ Json toJson(const SceneReport& r, const Targets& targets) {
                {{"sensors", r.sensorCount},
                 {"hidden", r.hiddenCount},
                 {"meanIrradiance", r.meanIrradiance},
-                {"noise", r.referenceNoise}}},
+                {"noise", {{"rms", r.noise.rms}, {"p95", r.noise.p95}, {"bias", r.noise.bias}}}}},
               {"firstSnapshot",
-               {{"seconds", r.first.seconds},
+               {{"seconds", r.first.duration.seconds},
+                {"cpuSeconds", r.first.duration.cpuSeconds},
                 {"targetSeconds", targets.firstSeconds},
                 {"error", r.first.error},
                 {"targetError", targets.firstError},

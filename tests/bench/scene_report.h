@@ -36,7 +36,7 @@ struct SceneReport {
     std::size_t sensorCount = 0;
     std::size_t hiddenCount = 0;
     double meanIrradiance = 0.0;  ///< lux, of the reference
-    double referenceNoise = 0.0;  ///< RMS standard error by that
+    NoiseFigures noise;
     FirstSnapshot first;
     std::vector<Level> gatheredLevels;
     std::vector<Level> displayedLevels;

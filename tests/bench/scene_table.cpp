@@ -14,128 +14,133 @@ const char* nameOf(solve::ErrorOf what) {
     return what == solve::ErrorOf::displayed ? "displayed mesh" : "sensors";
 }
 
-std::string thousands(std::uint64_t n) {
+std::string shorten(std::uint64_t n) {
     return n < 10'000       ? fmt::format("{}", n)
            : n < 10'000'000 ? fmt::format("{:.0f}k", static_cast<double>(n) * 1e-3)
                             : fmt::format("{:.1f}M", static_cast<double>(n) * 1e-6);
 }
 
-std::string workOf(const solve::Counters& c) {
-    return fmt::format("{:>7} {:>7} {:>7} {:>8}", thousands(c.leaves), thousands(c.links), thousands(c.rays),
-                       thousands(c.kernelEvaluations));
+std::string describeRequest(const ClosedLoop& loop) {
+    return fmt::format("{:g} % {:.4}", 100.0 * loop.requested, nameOf(loop.what));
 }
 
-std::string errorsOf(const TrueErrors& errors) {
-    std::string text;
+constexpr const char* kColumns =
+    "{:>11}     wall      CPU  leaves   links    rays  kernels   leaf constant       displayed mesh"
+    "      gathered\n{:>11}        s        s                                    RMS   p95   bias"
+    "    RMS   p95   bias    RMS   p95   bias\n";
+
+// Work and errors in the columns of above.
+std::string describeState(const Duration& duration, const solve::Counters& c, const TrueErrors& errors) {
+    std::string text =
+        fmt::format("{:>8.3f} {:>8.3f} {:>7} {:>7} {:>7} {:>8} ", duration.seconds, duration.cpuSeconds,
+                    shorten(c.leaves), shorten(c.links), shorten(c.rays), shorten(c.kernelEvaluations));
     for (const ErrorFigures& e : {errors.leaves, errors.displayed, errors.gathered}) {
-        text += fmt::format("  {:5.2f} {:5.2f} {:+6.2f}", 100.0 * e.rms, 100.0 * e.p95, 100.0 * e.bias);
+        text += fmt::format(" {:5.2f} {:5.2f} {:+6.2f}", 100.0 * e.rms, 100.0 * e.p95, 100.0 * e.bias);
     }
     return text;
 }
 
-constexpr const char* kColumns =
-    "{:>11} {:>8} {:>7} {:>7} {:>7} {:>8}   leaf constant        displayed mesh       gathered\n"
-    "{:>11} {:>8} {:>7} {:>7} {:>7} {:>8}   RMS   p95   bias     RMS   p95   bias     RMS   p95   bias\n";
-
 void addHeader(Out out, const SceneReport& r) {
     fmt::format_to(out,
-                   "{}: {} threads, fastest of {} runs, load of the machine {:.1f}\n"
-                   "{} sensors of {} drawn ({} lie under solids), mean {:.1f} lux, noise of the reference "
-                   "{:.2f} % (taken off RMS, not off p95)\n"
-                   "Seconds from a loaded scene. Errors in % of the mean; p95: of |E - E*| / E* where E* > "
-                   "0.1 mean.\n\n",
+                   "{}: {} threads, fastest of {} runs, from a loaded scene; load of the machine {:.1f}\n"
+                   "{} sensors of {} drawn ({} lie under solids), mean {:.1f} lux\n"
+                   "Errors in %: RMS and bias of the mean, p95 of |E - E*| / E* where E* > 0.1 mean.\n"
+                   "Noise of the reference: {:.2f} RMS, taken off; {:.2f} in p95, not taken off; {:.2f} in "
+                   "bias.\n\n",
                    r.scene, r.threads, r.repeats, r.load, r.sensorCount, r.sensorCount + r.hiddenCount,
-                   r.hiddenCount, r.meanIrradiance, 100.0 * r.referenceNoise);
+                   r.hiddenCount, r.meanIrradiance, 100.0 * r.noise.rms, 100.0 * r.noise.p95,
+                   100.0 * r.noise.bias);
 }
 
 void addTargets(Out out, const SceneReport& r, const Targets& targets) {
-    fmt::format_to(out,
-                   "First lit snapshot       {:7.3f} s  (target {} s)   error {:.1f} % (target {:.0f} %), {} "
-                   "links, {} leaves\n",
-                   r.first.seconds, targets.firstSeconds, 100.0 * r.first.error, 100.0 * targets.firstError,
-                   thousands(r.first.links), thousands(r.first.leaves));
+    fmt::format_to(out, "{:<24} {:>8}  {:>7} {:>8} {:>8}\n", "Time to error", "seconds", "target", "between",
+                   "CPU");
+    fmt::format_to(
+        out, "{:<24} {:>8.3f}  {:>7g} {:>8} {:>8.3f}   really {:.1f} % (target {:g} %), {} links\n",
+        "first lit snapshot", r.first.duration.seconds, targets.firstSeconds, "", r.first.duration.cpuSeconds,
+        100.0 * r.first.error, 100.0 * targets.firstError, shorten(r.first.links));
     for (const Target& target : targets.times) {
         const Level* level = firstBelow(r.levels(target.what), target.what, target.error);
         const std::string goal = fmt::format("{:g} % {}", 100.0 * target.error, nameOf(target.what));
         if (level == nullptr) {
-            fmt::format_to(out, "{:<24}  not reached (target {} s)\n", goal, target.seconds);
+            fmt::format_to(out, "{:<24} {:>8}  {:>7g}\n", goal, "never", target.seconds);
             continue;
         }
+        const auto between = interpolateSeconds(r.levels(target.what), target.what, target.error);
         const solve::Counters& c = level->statistics.counters;
-        fmt::format_to(out, "{:<24} {:7.3f} s  (target {} s)   {} rays, {} links, really {:.2f} %\n", goal,
-                       level->seconds, target.seconds, thousands(c.rays), thousands(c.links),
-                       100.0 * level->errors.of(target.what));
+        fmt::format_to(out, "{:<24} {:>8.3f}  {:>7g} {:>8} {:>8.3f}   really {:.2f} %, {} rays, {} links\n",
+                       goal, level->duration.seconds, target.seconds,
+                       between ? fmt::format("{:.3f}", *between) : "", level->duration.cpuSeconds,
+                       100.0 * level->errors.of(target.what), shorten(c.rays), shorten(c.links));
     }
-    fmt::format_to(out, "(first level of a refining run whose true error is below)\n\n");
+    fmt::format_to(out,
+                   "(seconds: the first level of a refining run whose true error is below; between: "
+                   "interpolated from the level before)\n\n");
 }
 
 void addLevels(Out out, const std::vector<Level>& levels, const char* title) {
     fmt::format_to(out, "{}\n", title);
-    fmt::format_to(out, fmt::runtime(kColumns), "threshold", "seconds", "leaves", "links", "rays", "kernel",
-                   "lux", "", "", "", "", "evals");
+    fmt::format_to(out, fmt::runtime(kColumns), "threshold", "lux");
     for (const Level& level : levels) {
-        fmt::format_to(out, "{:>11.4g} {:>8.3f} {}{}\n", level.statistics.threshold, level.seconds,
-                       workOf(level.statistics.counters), errorsOf(level.errors));
+        const solve::Statistics& s = level.statistics;
+        fmt::format_to(out, "{:>11.4g} {}\n", s.threshold,
+                       describeState(level.duration, s.counters, level.errors));
     }
     fmt::format_to(out, "\n");
 }
 
 void addLoops(Out out, const SceneReport& r) {
-    fmt::format_to(out, "Closed loop: stops by its own estimate\n");
-    fmt::format_to(out, fmt::runtime(kColumns), "requested", "seconds", "leaves", "links", "rays", "kernel",
-                   "", "", "", "", "", "evals");
+    fmt::format_to(out, "Closed loop: stops by its own estimate, converged and audited\n");
+    fmt::format_to(out, fmt::runtime(kColumns), "requested", "");
     for (const ClosedLoop& loop : r.loops) {
-        fmt::format_to(out, "{:>4g} % {:>4.4} {:>8.3f} {}{}   estimated {:.2f}{}\n", 100.0 * loop.requested,
-                       nameOf(loop.what), loop.seconds, workOf(loop.statistics.counters),
-                       errorsOf(loop.errors), 100.0 * loop.statistics.estimatedError,
-                       loop.isReached ? "" : " (out of time)");
+        fmt::format_to(out, "{:>11} {}   estimated {:.2f}{}\n", describeRequest(loop),
+                       describeState(loop.duration, loop.statistics.counters, loop.errors),
+                       100.0 * loop.statistics.estimatedError, loop.isReached ? "" : ", out of time");
     }
     fmt::format_to(out, "\n");
 }
 
 void addShares(Out out, const SceneReport& r) {
     fmt::format_to(out,
-                   "Stages in % of the seconds; refinement's parts from unit costs and counters\n"
-                   "{:>11} {:>8} {:>6} {:>7} = {:>7} {:>6} {:>8} {:>6}  {:>6} {:>6} {:>8} {:>6}\n",
-                   "requested", "seconds", "build", "refine", "factors", "rays", "(tracer)", "rest", "sweep",
-                   "audit", "display*", "other");
+                   "Share of each stage in %; refinement's parts from unit costs times counters\n"
+                   "{:>11}   build  refine = factors    rays (traced)    rest   sweep   audit (display)\n",
+                   "requested");
     for (const ClosedLoop& loop : r.loops) {
         const solve::StageTimes& t = loop.statistics.times;
         const RefineShares s = estimateShares(r.costs, loop.statistics, r.threads);
-        const auto part = [&](double seconds) { return 100.0 * seconds / loop.seconds; };
-        fmt::format_to(out,
-                       "{:>4g} % {:>4.4} {:>8.3f} {:>6.1f} {:>7.1f} = {:>7.1f} {:>6.1f} {:>8.1f} {:>6.1f}  "
-                       "{:>6.1f} {:>6.1f} "
-                       "{:>8.1f} {:>6.1f}\n",
-                       100.0 * loop.requested, nameOf(loop.what), loop.seconds, part(t.build), part(t.refine),
-                       part(s.formFactors), part(s.rays), part(s.tracing), part(s.rest), part(t.sweep),
-                       part(t.audit), part(t.display),
-                       part(loop.seconds - t.build - t.refine - t.sweep - t.audit));
+        const auto part = [&](double seconds) { return 100.0 * seconds / loop.duration.seconds; };
+        fmt::format_to(
+            out,
+            "{:>11} {:>7.1f} {:>7.1f} = {:>7.1f} {:>7.1f} {:>8.1f} {:>7.1f} {:>7.1f} {:>7.1f} {:>9.1f}\n",
+            describeRequest(loop), part(t.build), part(t.refine), part(s.formFactors), part(s.rays),
+            part(s.tracing), part(s.rest), part(t.sweep), part(t.audit), part(t.display));
     }
     fmt::format_to(out,
-                   "(audit holds the error estimate; * display lies within it, or within publishing)\n\n");
+                   "(rest: certificates, decisions, splits, lists; audit holds the error estimate, which "
+                   "holds the display)\n\n");
 }
 
 void addCosts(Out out, const SceneReport& r, const Targets& targets) {
     const TransportCosts& c = r.costs;
+    const ClosedLoop& last = r.loops.back();
+    const solve::Counters& n = last.statistics.counters;
     const auto rate = [&](double nanoseconds) { return 1e3 * r.threads / nanoseconds; };
     fmt::format_to(out,
-                   "Unit costs of one thread over {} links ({} of them not certainly open): form factor "
-                   "{:.2f} us, certificate "
+                   "One thread, over {} links ({} not certainly open): form factor {:.2f} us, certificate "
                    "{:.2f} us, ray with its generation {:.0f} ns\n",
-                   c.links, c.testedLinks, 1e-3 * c.perFactor, 1e-3 * c.perCertificate, c.perRay);
-    const ClosedLoop& last = r.loops.back();
+                   shorten(c.links), shorten(c.testedLinks), 1e-3 * c.perFactor, 1e-3 * c.perCertificate,
+                   c.perRay);
     fmt::format_to(
         out,
-        "Million rays a second on {} threads: {:.2f} in refinement as a whole, {:.2f} in visibility, {:.2f} "
-        "bare bundles of 16, {:.2f} bare single rays (bare: Embree through the guard of core/rays)\n",
-        r.threads, 1e-6 * static_cast<double>(last.statistics.counters.rays) / last.statistics.times.refine,
-        rate(c.perRay), rate(c.perBundledRay), rate(c.perSingleRay));
-    const solve::Counters& n = last.statistics.counters;
+        "Million rays a second: {:.1f} in refinement as a whole, {:.1f} in visibility, {:.1f} bare "
+        "in bundles of 16, {:.1f} bare one by one\n"
+        "(bare: segments made beforehand, Embree through the guard of core/rays)\n",
+        1e-6 * static_cast<double>(n.rays) / last.statistics.times.refine, rate(c.perRay),
+        rate(c.perBundledRay), rate(c.perSingleRay));
     fmt::format_to(
         out,
-        "Bytes: {:.1f} per node (target {:.0f}), {:.1f} per directed link (target {:.0f}): one record and "
-        "two list entries serve both directions of a pair\n",
+        "Bytes: {:.1f} a node (target {:g}); {:.1f} a directed link (target {:g}): a record and two "
+        "list entries serve both directions\n",
         static_cast<double>(n.bytesNodes) / static_cast<double>(n.nodes), targets.bytesPerNode,
         0.5 * static_cast<double>(n.bytesLinks) / static_cast<double>(n.links), targets.bytesPerLink);
 }

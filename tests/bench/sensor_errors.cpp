@@ -21,6 +21,34 @@ constexpr double kDark = 0.1;  ///< of the mean: local relative errors are not t
 
 }  // namespace
 
+NoiseFigures noiseOf(const std::vector<ReferencePoint>& reference) {
+    const double mean = meanIrradiance(reference);
+    NoiseFigures figures;
+    figures.rms = std::sqrt(noiseSquare(reference)) / mean;
+    figures.bias = figures.rms / std::sqrt(static_cast<double>(reference.size()));
+    std::vector<double> deviations;  // of the local relative errors, which are normal
+    for (const ReferencePoint& point : reference) {
+        for (int c = 0; c < 3; ++c) {
+            if (point.irradiance[c] > kDark * mean) {
+                deviations.push_back(std::max(point.standardError[c] / point.irradiance[c], 1e-9));
+            }
+        }
+    }
+    // 95 % of the mixture lie below the size where the mean of the distributions is that.
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 0; step < 40; ++step) {
+        const double middle = 0.5 * (low + high);
+        double sum = 0.0;
+        for (const double deviation : deviations) {
+            sum += std::erf(middle / (deviation * std::sqrt(2.0)));
+        }
+        (sum < 0.95 * static_cast<double>(deviations.size()) ? low : high) = middle;
+    }
+    figures.p95 = deviations.empty() ? 0.0 : high;
+    return figures;
+}
+
 ErrorFigures compare(const std::vector<Rgb>& values, const std::vector<ReferencePoint>& reference) {
     FLUXWALK_CHECK_EQ(values.size(), reference.size());
     const double mean = meanIrradiance(reference);

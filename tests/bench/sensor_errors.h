@@ -20,6 +20,14 @@ struct ErrorFigures {
     double bias = 0.0;
 };
 
+/// What the reference's noise alone would give.
+struct NoiseFigures {
+    double rms = 0.0;   ///< part of the mean; RMS is already free of it
+    double p95 = 0.0;   ///< of the local relative error, which is not
+    double bias = 0.0;  ///< standard error of the bias, channels taken as fully correlated
+};
+NoiseFigures noiseOf(const std::vector<ReferencePoint>& reference);
+
 ErrorFigures compare(const std::vector<Rgb>& values, const std::vector<ReferencePoint>& reference);
 
 /// Reads solutions of one scene at its benchmark sensors.
