@@ -4,9 +4,9 @@
 uniform float exposure;  // per cd/m2
 uniform int toneCurve;   // 0 linear, 1 filmic, 2 Reinhard
 
-// A rational curve through (0, 0) with slope 0.75, (0.18, 0.18), (1, 0.72) and (8, 0.975), tending to 1.
+// A rational curve through (0, 0) with slope 0.6, (0.18, 0.18), (1, 0.782) and (8, 0.99), tending to 1.
 vec3 filmic(vec3 x) {
-    return x * (3.32 * x + 0.75) / (x * (3.32 * x + 1.334) + 1.0);
+    return x * (3.68 * x + 0.6) / (x * (3.68 * x + 0.79) + 1.0);
 }
 
 // Reinhard et al. 2002, eq. 4, on luminance: keeps the hue; four times white becomes white.

@@ -7,6 +7,9 @@
 /// once in main.
 namespace fluxwalk::base {
 
+/// Text from a file made fit for a terminal: control characters become '?', so that it stays on one line.
+std::string toOneLine(std::string text);
+
 /// A file could not be read, understood or written. what() is one line: "FILE: PLACE: message".
 class FileError : public std::runtime_error {
   public:

@@ -74,11 +74,13 @@ std::size_t GlbBuilder::addIndices(std::span<const std::uint32_t> indices) {
 
 std::vector<std::uint8_t> GlbBuilder::pack() {
     bin_.resize((bin_.size() + 3) / 4 * 4);
-    root["buffers"] = {{{"byteLength", bin_.size()}}};
+    if (!bin_.empty()) {
+        root["buffers"] = {{{"byteLength", bin_.size()}}};
+    }
     // Names may hold anything; what is not UTF-8 is replaced rather than refused.
     std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::uint64_t length = 12 + 8 + text.size() + 8 + bin_.size();
+    const std::uint64_t length = 12 + 8 + text.size() + (bin_.empty() ? 0 : 8 + bin_.size());
     if (length > 0xffffffffu) {
         return {};
     }
@@ -90,9 +92,11 @@ std::vector<std::uint8_t> GlbBuilder::pack() {
     appendWord(out, text.size());
     appendWord(out, 0x4e4f534a);  // "JSON"
     out.insert(out.end(), text.begin(), text.end());
-    appendWord(out, bin_.size());
-    appendWord(out, 0x004e4942);  // "BIN"
-    out.insert(out.end(), bin_.begin(), bin_.end());
+    if (!bin_.empty()) {
+        appendWord(out, bin_.size());
+        appendWord(out, 0x004e4942);  // "BIN"
+        out.insert(out.end(), bin_.begin(), bin_.end());
+    }
     return out;
 }
 

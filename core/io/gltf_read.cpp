@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "core/io/gltf_exact.h"
@@ -67,8 +68,9 @@ class ObjectBuilder {
              std::uint32_t material) {
         // Names are keys elsewhere: each is used once.
         std::string unique = name;
-        for (int i = 2; !names_.insert(unique).second; ++i) {
-            unique = name + "#" + std::to_string(i);
+        for (std::size_t& last = lastNumber_[name]; !names_.insert(unique).second;) {
+            last = std::max<std::size_t>(2, last + 1);
+            unique = name + "#" + std::to_string(last);
         }
         scene_.objects.push_back({unique, std::move(surface), material});
     }
@@ -88,6 +90,8 @@ class ObjectBuilder {
     scene::Scene& scene_;
     std::size_t fileMaterials_;
     std::set<std::string> names_;
+    /// The last number appended to a name that is used more than once.
+    std::map<std::string, std::size_t> lastNumber_;
     std::uint64_t trianglesLeft_ = kMaxTriangles;
 };
 

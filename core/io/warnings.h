@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "core/base/error.h"
 
 namespace fluxwalk::io {
 
@@ -11,13 +14,12 @@ class Warnings {
   public:
     /// `place` is a JSON pointer, possibly with a name.
     void add(const std::string& message, const std::string& place) {
-        for (Entry& entry : entries_) {
-            if (entry.message == message) {
-                ++entry.count;
-                return;
-            }
+        const auto [found, isNew] = indexOf_.try_emplace(message, entries_.size());
+        if (isNew) {
+            entries_.push_back({message, place, 1});
+        } else {
+            ++entries_[found->second].count;
         }
-        entries_.push_back({message, place, 1});
     }
 
     /// "PLACE: message (and 3 more)", in the order of their first appearance.
@@ -28,7 +30,7 @@ class Warnings {
             if (entry.count > 1) {
                 line += " (and " + std::to_string(entry.count - 1) + " more)";
             }
-            result.push_back(std::move(line));
+            result.push_back(base::toOneLine(std::move(line)));
         }
         return result;
     }
@@ -40,6 +42,7 @@ class Warnings {
         std::size_t count = 0;
     };
     std::vector<Entry> entries_;
+    std::unordered_map<std::string, std::size_t> indexOf_;
 };
 
 }  // namespace fluxwalk::io

@@ -35,12 +35,17 @@ RTCRay toEmbree(const Ray& ray) {
     return r;
 }
 
-// Debian's Embree has live asserts: a ray that is not finite, or a negative tNear, would abort the process.
+/// Largest coordinate of a ray that Embree takes (its FLT_LARGE, so that squares stay finite).
+constexpr float kLargestCoordinate = 1.844e18f;
+
+// Debian's Embree has live asserts: a ray that is not finite or too far away, or a negative tNear, would
+// abort the process.
 bool isSafe(const Ray& ray) {
-    const auto finite = [](const Vec3& v) {
-        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    const auto bounded = [](const Vec3& v) {
+        return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
+               std::abs(v.z) <= kLargestCoordinate;
     };
-    return finite(ray.origin) && finite(ray.direction) && ray.tNear >= 0.0f && ray.tFar >= ray.tNear;
+    return bounded(ray.origin) && bounded(ray.direction) && ray.tNear >= 0.0f && ray.tFar >= ray.tNear;
 }
 
 /// What the callbacks of one object need.

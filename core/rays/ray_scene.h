@@ -52,8 +52,10 @@ class RayScene {
     /// Half-line from a lifted surface point.
     Ray halfLine(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& direction) const;
 
-    /// Nearest hit; nothing also for rays that are not finite (which Embree could not bear).
+    /// Nearest hit; nothing also for rays that make no sense: not finite, coordinates beyond 1.8e18, a
+    /// negative tNear, tFar below tNear (Embree could not bear them).
     std::optional<Hit> closest(const Ray& ray) const;
+    /// Rays that make no sense count as occluded: nothing is known to be free.
     bool isOccluded(const Ray& ray) const;
     /// Occlusion of a bundle of rays with common ends or directions; blocked[i] becomes 1 or 0. Best with 16
     /// to 256 rays.

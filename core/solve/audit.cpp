@@ -37,8 +37,8 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
     const Hierarchy& h = problem.hierarchy;
     std::vector<double> before(leaves.size() + 1, 0.0);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-        const double power = static_cast<double>(base::channelMean(h.light(leaves[i]).radiosity)) *
-                             static_cast<double>(h.shape(leaves[i]).exposedArea());
+        const auto power = static_cast<double>(base::channelMean(h.light(leaves[i]).radiosity)) *
+                           static_cast<double>(h.shape(leaves[i]).exposedArea());
         before[i + 1] = before[i] + power;
     }
     const double total = before.back();
@@ -53,7 +53,7 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
         for (std::size_t i = begin; i < end; ++i) {
             // Systematic sampling: ray k belongs to the leaf whose share of the power holds (k + offset) /
             // rayCount.
-            const double scale = static_cast<double>(rayCount) / total;
+            const auto scale = static_cast<double>(rayCount) / total;
             const auto first = static_cast<std::int64_t>(std::ceil(before[i] * scale - offset));
             const auto last = static_cast<std::int64_t>(std::ceil(before[i + 1] * scale - offset));
             if (first >= last) {
@@ -63,7 +63,7 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
             const surface::Surface& surface = h.surfaceOf(leaves[i]);
             const surface::Region region = h.region(leaves[i]);
             base::RandomStream random(base::combine(h.key(leaves[i]), 0xe5ca9e));
-            const double mean = static_cast<double>(base::channelMean(h.light(leaves[i]).radiosity));
+            const auto mean = static_cast<double>(base::channelMean(h.light(leaves[i]).radiosity));
             const Vec3d worth = Vec3d(h.light(leaves[i]).radiosity) / (mean * scale);
             for (std::int64_t k = first; k < last; ++k) {
                 base::Vec2d st = random.next2();
@@ -118,7 +118,7 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
         }
         const NodeId parent = h.parent(id);
         const bool isPatch = parent == NodeId::none || h.kind(parent) == NodeKind::cluster;
-        const double area = static_cast<double>(h.shape(id).exposedArea());
+        const auto area = static_cast<double>(h.shape(id).exposedArea());
         sums[i] =
             static_cast<float>(area > 0.0 ? sum / area : 0.0) + (isPatch ? 0.0f : sums[base::index(parent)]);
     }
@@ -136,7 +136,7 @@ Audit auditEnergy(const Problem& problem, std::size_t rayCount) {
     const std::vector<NodeId> leaves = collectLeaves(h);
     for (const NodeId id : leaves) {
         const hierarchy::Light& light = h.light(id);
-        const double area = static_cast<double>(h.shape(id).exposedArea());
+        const auto area = static_cast<double>(h.shape(id).exposedArea());
         audit.emitted += area * Vec3d(light.emission);
         audit.absorbed += area * (Vec3d(1.0) - Vec3d(light.reflectance)) * Vec3d(light.irradiance);
     }

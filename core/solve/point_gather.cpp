@@ -99,7 +99,7 @@ class PointGather {
         double all = 0.0;
         double exposed = 0.0;
         for (unsigned cell = 0; cell < 16; ++cell) {
-            const transport::SurfaceSample p = sampler.at({(cell % 4 + 0.5) * 0.25, (cell / 4 + 0.5) * 0.25});
+            const transport::SurfaceSample p = sampler.inCell(cell);
             const Vec3d d = p.position - x_;
             const double r2 = std::max(glm::dot(d, d), 1e-300);
             const double kernel = p.measure * std::max(0.0, glm::dot(n_, d)) *
@@ -127,7 +127,8 @@ class PointGather {
         unsigned used = 0;
         for (unsigned i = 0; i < side * side; ++i) {
             const Vec2d jitter = random.next2();
-            const Vec2d st((i % side + jitter.x) / side, (i / side + jitter.y) / side);
+            const unsigned row = i / side;
+            const Vec2d st((i % side + jitter.x) / side, (row + jitter.y) / side);
             const unsigned cell = 4 * static_cast<unsigned>(st.y * 4.0) + static_cast<unsigned>(st.x * 4.0);
             if ((shape.exposedCells >> cell & 1u) == 0) {
                 continue;
@@ -186,7 +187,8 @@ class PointGather {
         for (unsigned i = 0; i < kSide * kSide; ++i) {
             const Vec2d jitter = random.next2();
             const double y = (i % kSide + jitter.x) / kSide;
-            const double angle = 2.0 * base::kPi * (i / kSide + jitter.y) / kSide;
+            const unsigned row = i / kSide;
+            const double angle = 2.0 * base::kPi * (row + jitter.y) / kSide;
             const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
             const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
             const double cosine = glm::dot(n_, direction);

@@ -16,7 +16,7 @@ std::vector<float> computeRowScaling(const Problem& problem) {
     std::vector<float> scale(h.nodeCount(), 1.0f);
     for (int round = 0; round < kRounds; ++round) {
         const std::vector<float> sums = computeRowSums(problem, scale);
-        for (std::uint32_t i = static_cast<std::uint32_t>(h.nodeCount()); i-- > 0;) {
+        for (auto i = static_cast<std::uint32_t>(h.nodeCount()); i-- > 0;) {
             const NodeId id{i};
             if (h.kind(id) != hierarchy::NodeKind::element) {
                 continue;
@@ -32,7 +32,7 @@ std::vector<float> computeRowScaling(const Problem& problem) {
             double weighted = 0.0;
             double area = 0.0;
             for (unsigned c = 0; c < 4; ++c) {
-                const double part = static_cast<double>(h.shape(h.child(id, c)).exposedArea());
+                const auto part = static_cast<double>(h.shape(h.child(id, c)).exposedArea());
                 weighted += part * static_cast<double>(scale[base::index(h.child(id, c))]);
                 area += part;
             }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/error.h"
 #include "core/base/photometry.h"
 #include "core/solve/audit.h"
 #include "core/solve/display_update.h"
@@ -44,7 +45,7 @@ double estimateAmbient(const Problem& problem) {
     double flux = 0.0;
     double reflected = 0.0;
     for (const NodeId id : h.patches()) {
-        const double area = static_cast<double>(h.shape(id).exposedArea());
+        const auto area = static_cast<double>(h.shape(id).exposedArea());
         flux += area * static_cast<double>(base::channelMean(h.light(id).emission));
         reflected += area * static_cast<double>(base::channelMean(h.light(id).reflectance));
     }
@@ -75,6 +76,20 @@ double meanIrradiance(const hierarchy::Hierarchy& h) {
         sum += static_cast<double>(h.shape(id).exposedArea() * base::channelMean(h.light(id).irradiance));
     }
     return h.totalArea() > 0.0 ? sum / h.totalArea() : 0.0;
+}
+
+/// Links between all pairs of patches are the start of everything here: beyond this many patches they would
+/// fill the memory.
+constexpr std::size_t kMaxPatches = 8000;
+
+void checkSize(const Problem& problem) {
+    const std::size_t patches = problem.hierarchy.patches().size();
+    if (patches > kMaxPatches) {
+        throw base::UsageError(
+            "the scene has " + std::to_string(patches) +
+            " patches that light reaches; this version links all pairs of them and takes at most " +
+            std::to_string(kMaxPatches));
+    }
 }
 
 double firstThreshold(OracleKind oracle, double ambient) {
@@ -193,6 +208,7 @@ class Run {
 Solver::Solver(std::shared_ptr<const scene::Scene> scene, const Options& options, unsigned threads) {
     const Clock::time_point start = Clock::now();
     state_ = std::make_unique<State>(std::move(scene), options, threads);
+    checkSize(state_->problem);
     state_->problem.statistics.times.build = secondsSince(start);
 }
 

@@ -96,7 +96,7 @@ void Sweeper::gather(const Block& block) {
                 slopeT += power * here.y;
             }
             const double scale = isScaled ? static_cast<double>(problem_.rowScale[base::index(id)]) : 1.0;
-            const double area = static_cast<double>(h.shape(id).exposedArea());
+            const auto area = static_cast<double>(h.shape(id).exposedArea());
             const double perArea = area > 0.0 ? scale / area : 0.0;
             LinearIrradiance& out = gathered_[base::index(id)];
             out.mean = Rgb(sum * perArea);
@@ -153,7 +153,7 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
         hierarchy::Light& light = h.light(id);
         if (h.isLeaf(id)) {
             const Rgb radiosity = light.emission + light.reflectance * light.irradiance;
-            const double area = static_cast<double>(h.shape(id).exposedArea());
+            const auto area = static_cast<double>(h.shape(id).exposedArea());
             change += area * static_cast<double>(base::channelMean(glm::abs(radiosity - light.radiosity)));
             power += area * static_cast<double>(base::channelMean(radiosity));
             light.radiosity = radiosity;
@@ -175,7 +175,7 @@ void Sweeper::pull(NodeId id) {
     double area = 0.0;
     for (unsigned c = 0; c < 4; ++c) {
         const NodeId child = h.child(id, c);
-        const double part = static_cast<double>(h.shape(child).exposedArea());
+        const auto part = static_cast<double>(h.shape(child).exposedArea());
         radiosity += part * Vec3d(h.light(child).radiosity);
         irradiance += part * Vec3d(h.light(child).irradiance);
         area += part;

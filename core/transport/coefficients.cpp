@@ -68,7 +68,7 @@ double exposedShare(const hierarchy::Hierarchy& h, NodeId id, const ElementPoint
     double all = 0.0;
     double exposed = 0.0;
     for (unsigned cell = 0; cell < 16; ++cell) {
-        const SurfaceSample p = sampler.at({(cell % 4 + 0.5) * 0.25, (cell / 4 + 0.5) * 0.25});
+        const SurfaceSample p = sampler.inCell(cell);
         double kernel = 0.0;
         for (int j = 0; j < 4; ++j) {
             const Vec3d d = Vec3d(other.position.x[j], other.position.y[j], other.position.z[j]) - p.position;

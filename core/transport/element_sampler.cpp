@@ -40,13 +40,20 @@ SurfaceSample ElementSampler::at(const base::Vec2d& st) const {
     return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_, 1.0};
 }
 
+SurfaceSample ElementSampler::inCell(unsigned cell) const {
+    const unsigned row = cell / 4;
+    return at({(cell % 4 + 0.5) * 0.25, (row + 0.5) * 0.25});
+}
+
 SurfaceSample ElementSampler::inStratum(unsigned stratum, unsigned side, double jx, double jy) const {
     if (cellCount_ == 16) {
-        return at({(stratum % side + jx) / side, (stratum / side + jy) / side});
+        const unsigned row = stratum / side;
+        return at({(stratum % side + jx) / side, (row + jy) / side});
     }
     const double place = (stratum + 0.5) * cellCount_ / (static_cast<double>(side) * side);
     const unsigned cell = cells_[std::min(cellCount_ - 1, static_cast<unsigned>(place))];
-    return at({(cell % 4 + jx) * 0.25, (cell / 4 + jy) * 0.25});
+    const unsigned row = cell / 4;
+    return at({(cell % 4 + jx) * 0.25, (row + jy) * 0.25});
 }
 
 }  // namespace fluxwalk::transport

@@ -23,6 +23,9 @@ class ElementSampler {
     /// Point at coordinates of the region's unit square.
     SurfaceSample at(const base::Vec2d& st) const;
 
+    /// Middle of one of the 4 x 4 cells of Shape::exposedCells.
+    SurfaceSample inCell(unsigned cell) const;
+
     /// Point of the exposed part in one of side x side strata, at (jx, jy) in [0, 1)^2 within it.
     SurfaceSample inStratum(unsigned stratum, unsigned side, double jx, double jy) const;
 

@@ -65,8 +65,8 @@ double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d
 FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std::array<Vec3d, 4>& corners,
                                     std::uint32_t count, double tolerance) {
     std::array<Lanes3, 4> d;
-    LaneMask below = LaneMask{};
-    LaneMask above = LaneMask{};
+    auto below = LaneMask{};
+    auto above = LaneMask{};
     for (std::uint32_t k = 0; k < count; ++k) {
         d[k] = splat3(corners[k]) - x;
         const Lanes h = dot(n, d[k]);

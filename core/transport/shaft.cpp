@@ -19,7 +19,7 @@ struct Extent {
 
 Extent extentOf(const hierarchy::Shape& shape) {
     const Vec3d center(shape.center);
-    const double r = static_cast<double>(shape.radius);
+    const auto r = static_cast<double>(shape.radius);
     Extent e{center - Vec3d(r), center + Vec3d(r)};
     if (shape.isPlanar) {
         e = {Vec3d(shape.corners[0]), Vec3d(shape.corners[0])};
@@ -168,7 +168,7 @@ bool Shaft::excludes(const Vec3& lower, const Vec3& upper) const {
 bool Shaft::excludes(std::span<const Vec3d> polygon) const {
     for (std::size_t i = 0; i < planeCount_; ++i) {
         const Vec3d n(normals_[i]);
-        const double offset = static_cast<double>(offsets_[i]);
+        const auto offset = static_cast<double>(offsets_[i]);
         if (std::all_of(polygon.begin(), polygon.end(),
                         [&](const Vec3d& p) { return glm::dot(n, p) >= offset; })) {
             return true;

@@ -141,7 +141,8 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
             // Directions uniform over the upper hemisphere, strata permuted against those of the receiver.
             const unsigned j = (i * 37u + 11u) & 63u;
             const double y = (j % side + jitter.z) / side;
-            const double angle = 2.0 * base::kPi * (j / side + jitter.w) / side;
+            const unsigned row = j / side;
+            const double angle = 2.0 * base::kPi * (row + jitter.w) / side;
             const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
             const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
             weight *= std::max(0.0, glm::dot(p.normal, direction));

@@ -224,11 +224,22 @@ TEST_F(GltfBadInput, FilesThatAreNoGltf) {
 // The binary chunk's length is eight bytes too long: its end, counted without its header, is still inside.
 TEST_F(GltfBadInput, ChunkLengthsThatForgetTheirHeader) {
     std::vector<std::uint8_t> bytes = fixture_.glb();
-    const std::size_t jsonBytes = bytes[12] | (bytes[13] << 8);
+    const std::size_t jsonBytes = bytes[12] + std::size_t{256} * bytes[13];
     bytes[20 + jsonBytes] = static_cast<std::uint8_t>(bytes[20 + jsonBytes] + 8);
     const auto file = folder_.path() / "scene.glb";
     test::writeBytes(file, bytes);
     expectError(test::errorOf(file), "second chunk");
+}
+
+TEST_F(GltfBadInput, NamesCannotWriteToTheTerminal) {
+    expectError(errorAfter([](json& r) {
+                    r["nodes"][0]["name"] = "a\nb\x1b[2J";
+                    r["nodes"][0]["children"] = {0};
+                }),
+                "/nodes/0 'a?b?[2J'");
+    GltfFixture copy = fixture_;
+    copy.root["extensionsUsed"] = {"X\nY"};
+    EXPECT_TRUE(test::hasWarning(copy.read(folder_), "X?Y is not supported"));
 }
 
 // A small file with some of everything, for the damage below.

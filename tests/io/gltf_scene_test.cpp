@@ -150,6 +150,17 @@ TEST_F(GltfScene, MakesNamesUnique) {
     EXPECT_EQ(scene.objects[3].name, "wall/1#2");
 }
 
+TEST_F(GltfScene, ManyNodesMayShareAName) {
+    const int mesh = fixture_.addSquare();
+    for (int i = 0; i < 3; ++i) {
+        fixture_.addNode({{"name", i == 1 ? "chair#2" : "chair"}, {"mesh", mesh}});
+    }
+    const scene::Scene scene = read();
+    ASSERT_EQ(scene.objects.size(), 3u);
+    EXPECT_EQ(scene.objects[1].name, "chair#2");
+    EXPECT_EQ(scene.objects[2].name, "chair#3");
+}
+
 TEST_F(GltfScene, ReadsOnlyItsScene) {
     const int mesh = fixture_.addSquare();
     fixture_.addNode({{"name", "a"}, {"mesh", mesh}});

@@ -4,12 +4,15 @@
 
 #include "core/base/error.h"
 #include "core/base/photometry.h"
+#include "core/cli/values.h"
 #include "viewer/render/camera.h"
 
 namespace fluxwalk::app {
 namespace {
 
 constexpr double kDefaultFov = 50.0;
+constexpr double kLeastFov = 1.0;
+constexpr double kLargestFov = 179.0;
 
 scene::Camera findCamera(const std::string& name, const scene::Scene& scene) {
     std::string known;
@@ -44,9 +47,13 @@ void addCameraOptions(CLI::App& app, CameraArguments& arguments) {
     CLI::Option* target = addPoint("--target", arguments.target, "Where to look, in metres.");
     eye->needs(target);
     target->needs(eye);
-    app.add_option("--fov", arguments.fov, "Vertical field of view in degrees; 50 with --eye.")
+    app.add_option_function<std::string>(
+           "--fov",
+           [&arguments](const std::string& text) {
+               arguments.fov = cli::parseNumberOption("--fov", text, kLeastFov, kLargestFov, "degrees");
+           },
+           "Vertical field of view in degrees; by default the camera's own, or 50 with --eye.")
         ->type_name("DEG")
-        ->check(CLI::Range(1.0, 179.0))
         ->group("Camera");
 }
 

@@ -15,8 +15,10 @@ using base::kPi;
 using base::Vec3d;
 
 constexpr double kEyeHeight = 1.65;
-/// Part of all directions that must meet something for a place to count as indoors.
+/// Part of all directions that must meet something for a place to count as indoors, and its mean over all
+/// places under a roof: a box with an open side is a stage to look into, however closed it is at its back.
 constexpr double kClosed = 0.9;
+constexpr double kClosedOnAverage = 0.85;
 constexpr double kInsideFov = 65.0;
 constexpr double kOutsideFov = 40.0;
 constexpr int kDirections = 256;
@@ -63,6 +65,8 @@ std::optional<Vec3d> findIndoors(const rays::RayScene& rays, const base::Box& bo
     constexpr int kGrid = 5;
     std::optional<Vec3d> best;
     double bestRoominess = 0.0;
+    double closedness = 0.0;
+    int roofed = 0;
     for (int x = 0; x < kGrid; ++x) {
         for (int z = 0; z < kGrid; ++z) {
             Vec3d place = bounds.lower + size * Vec3d((x + 0.5) / kGrid, 0.5, (z + 0.5) / kGrid);
@@ -74,13 +78,15 @@ std::optional<Vec3d> findIndoors(const rays::RayScene& rays, const base::Box& bo
             const double height = *floor + *ceiling;
             place.y += -*floor + std::min(kEyeHeight, 0.55 * height);
             const Surroundings seen = lookAround(rays, place);
+            closedness += seen.closedness;
+            ++roofed;
             if (seen.closedness >= kClosed && seen.roominess > bestRoominess) {
                 best = place;
                 bestRoominess = seen.roominess;
             }
         }
     }
-    return best;
+    return closedness >= kClosedOnAverage * roofed ? best : std::nullopt;
 }
 
 scene::Camera insideView(const rays::RayScene& rays, const Vec3d& place) {

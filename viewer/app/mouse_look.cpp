@@ -1,6 +1,5 @@
 #include "viewer/app/mouse_look.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 

@@ -1,5 +1,6 @@
 #include "viewer/app/view_command.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,6 +37,19 @@ struct ViewArguments {
     gl::PixelSize size = kDefaultPicture;
     GlChoice gl = GlChoice::automatic;
 };
+
+GlChoice parseGl(const std::string& text) {
+    constexpr std::array<std::pair<std::string_view, GlChoice>, 4> kChoices{{{"auto", GlChoice::automatic},
+                                                                             {"egl", GlChoice::egl},
+                                                                             {"osmesa", GlChoice::osmesa},
+                                                                             {"window", GlChoice::window}}};
+    for (const auto& [name, choice] : kChoices) {
+        if (text == name) {
+            return choice;
+        }
+    }
+    throw base::UsageError("--gl: '" + text + "' is none of auto, egl, osmesa and window");
+}
 
 bool isLit(const std::string& scene) {
     std::error_code ignored;
@@ -81,18 +95,20 @@ std::unique_ptr<gl::Context> makeContext(GlChoice choice) {
 
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     cli::requireWritable(file);
-    // Before the solving, which may take long.
+    // All that can fail before the solving, which may take long.
     const std::unique_ptr<gl::Context> context = makeContext(arguments.gl);
     Shown shown;
     std::optional<cli::Solved> solved;
-    scene::Camera camera;
     if (isLit(arguments.scene.scene)) {
         shown = loadLit(arguments.scene.scene);
     } else {
+        if (!arguments.camera.name.empty()) {
+            chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
+        }
         solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
         shown = {solved->scene, solved->solver->litMeshes(), solved->scene};
     }
-    camera = cameraFor(arguments, shown);
+    const scene::Camera camera = cameraFor(arguments, shown);
     const std::vector<std::uint8_t> pixels =
         drawPicture(*context, shown.scene, shown.meshes, camera, arguments.size, render::ToneCurve::filmic);
     cli::writeOutput([&] {
@@ -155,34 +171,31 @@ cli::ExitCode runView(const ViewArguments& arguments) {
 }  // namespace
 
 cli::Command viewCommand() {
-    return {"view", "Walk through a scene while it is solved, or through a lit mesh written by solve.",
-            [](CLI::App& app) {
-                const auto arguments = std::make_shared<ViewArguments>();
-                cli::addSceneOptions(app, arguments->scene);
-                addCameraOptions(app, arguments->camera);
-                app.add_option("--screenshot", arguments->screenshot,
-                               "Solve, write a picture and end, without a window.")
-                    ->type_name("OUT.png")
-                    ->group("Picture");
-                app.add_option_function<std::string>(
-                       "--size", [arguments](const std::string& text) { arguments->size = parseSize(text); },
-                       "Size of the picture in pixels; 1280x720 by default.")
-                    ->type_name("WxH")
-                    ->group("Picture");
-                app.add_option("--gl", arguments->gl,
-                               "What draws the picture: auto is EGL without a display, else OSMesa.")
-                    ->type_name("auto|egl|osmesa|window")
-                    ->transform(
-                        CLI::CheckedTransformer(std::map<std::string, GlChoice>{{"auto", GlChoice::automatic},
-                                                                                {"egl", GlChoice::egl},
-                                                                                {"osmesa", GlChoice::osmesa},
-                                                                                {"window", GlChoice::window}},
-                                                CLI::ignore_case))
-                    ->group("Picture");
-                cli::addSolverOptions(app, arguments->solver);
-                cli::addOutputOptions(app, arguments->output);
-                return [arguments] { return runView(*arguments); };
-            }};
+    return {
+        "view", "Walk through a scene while it is solved, or through a lit mesh written by solve.",
+        [](CLI::App& app) {
+            const auto arguments = std::make_shared<ViewArguments>();
+            cli::addSceneOptions(app, arguments->scene);
+            addCameraOptions(app, arguments->camera);
+            app.add_option("--screenshot", arguments->screenshot,
+                           "Solve, write a picture and end, without a window.")
+                ->type_name("OUT.png")
+                ->group("Picture");
+            app.add_option_function<std::string>(
+                   "--size", [arguments](const std::string& text) { arguments->size = parseSize(text); },
+                   "Size of the picture in pixels; 1280x720 by default.")
+                ->type_name("WxH")
+                ->group("Picture");
+            app.add_option_function<std::string>(
+                   "--gl", [arguments](const std::string& text) { arguments->gl = parseGl(text); },
+                   "What draws the picture: egl needs no display, osmesa is Mesa's software renderer, window "
+                   "a display. By default egl, or osmesa where that cannot be had.")
+                ->type_name("auto|egl|osmesa|window")
+                ->group("Picture");
+            cli::addSolverOptions(app, arguments->solver);
+            cli::addOutputOptions(app, arguments->output);
+            return [arguments] { return runView(*arguments); };
+        }};
 }
 
 }  // namespace fluxwalk::app

@@ -1,6 +1,5 @@
 #include "viewer/app/walkthrough.h"
 
-#define GLFW_INCLUDE_NONE
 #include <algorithm>
 #include <cmath>
 
@@ -284,6 +283,8 @@ void walkThrough(gl::WindowContext& window, const Exhibit& exhibit) {
     while (glfwWindowShouldClose(window.window()) == GLFW_FALSE) {
         walkthrough.step();
     }
+    // The solver ends at its next wave; nobody need look at a dead window until then.
+    glfwHideWindow(window.window());
 }
 
 }  // namespace fluxwalk::app

@@ -1,13 +1,11 @@
-#include "viewer/gl/context.h"
-
-// Without X11's headers, whose macros (None, Success, ...) collide with everything.
-#define EGL_NO_X11
 #include <array>
 #include <cstdio>
 #include <string_view>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+
+#include "viewer/gl/context.h"
 
 namespace fluxwalk::gl {
 namespace {

@@ -11,7 +11,7 @@ namespace {
 GLuint compile(const Functions& gl, const std::string& name, GLenum stage, std::string_view source) {
     const GLuint shader = gl.CreateShader(stage);
     const char* text = source.data();
-    const GLint length = static_cast<GLint>(source.size());
+    const auto length = static_cast<GLint>(source.size());
     gl.ShaderSource(shader, 1, &text, &length);
     gl.CompileShader(shader);
     GLint compiled = GL_FALSE;

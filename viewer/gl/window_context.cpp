@@ -1,6 +1,5 @@
 #include "viewer/gl/window_context.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace fluxwalk::gl {

@@ -8,9 +8,9 @@
 namespace fluxwalk::render {
 namespace {
 
-/// Rational curve through (0, 0) with slope 0.75, (0.18, 0.18), (1, 0.72) and (8, 0.975), tending to 1.
+/// Rational curve through (0, 0) with slope 0.6, (0.18, 0.18), (1, 0.782) and (8, 0.99), tending to 1.
 float filmic(float x) {
-    return x * (3.32f * x + 0.75f) / (x * (3.32f * x + 1.334f) + 1.0f);
+    return x * (3.68f * x + 0.6f) / (x * (3.68f * x + 0.79f) + 1.0f);
 }
 
 }  // namespace

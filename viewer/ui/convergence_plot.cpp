@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <vector>
 
@@ -34,6 +35,7 @@ Axes fitAxes(const solve::Statistics& statistics, double target) {
     double least = target;
     double most = target;
     Axes axes;
+    axes.seconds = 0.0;
     for (const solve::HistoryEntry& entry : statistics.history) {
         for (const double value : {entry.error, entry.residual}) {
             if (value > 0.0) {
@@ -43,7 +45,8 @@ Axes fitAxes(const solve::Statistics& statistics, double target) {
         }
         axes.seconds = std::max(axes.seconds, entry.seconds);
     }
-    axes.highestDecade = std::min(2.0, std::ceil(std::log10(most) + 1e-9));
+    axes.highestDecade = std::min(2.0, std::ceil(std::log10(most) - 0.05));
+    axes.seconds = std::max(axes.seconds, 1e-3);
     // Residuals may fall without end: four decades show what matters.
     axes.lowestDecade = std::clamp(std::floor(std::log10(std::max(least, 1e-12)) - 1e-9),
                                    axes.highestDecade - 4.0, axes.highestDecade - 2.0);

@@ -1,6 +1,7 @@
 #include "viewer/ui/panel.h"
 
 #include <array>
+#include <cfloat>
 #include <cmath>
 
 #include <imgui.h>
@@ -59,12 +60,15 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
         return;
     }
     const bool isFinished = info.session->phase == session::Phase::finished;
+    if (isFinished) {
+        ImGui::ProgressBar(1.0f, ImVec2(-FLT_MIN, 6.0f * scale), "");
+        return;
+    }
     const float buttonWidth = 84.0f * scale;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float height = ImGui::GetFrameHeight();
-    const double progress = isFinished ? 1.0 : info.session->progress;
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (height - 6.0f * scale));
-    ImGui::ProgressBar(static_cast<float>(progress),
+    ImGui::ProgressBar(static_cast<float>(info.session->progress),
                        ImVec2(ImGui::GetContentRegionAvail().x - buttonWidth - gap, 6.0f * scale), "");
     ImGui::SameLine();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 0.5f * (height - 6.0f * scale));
@@ -234,7 +238,7 @@ void drawKeys(bool isCaptured, Movement movement, float scale) {
     const char* other = movement == Movement::walk ? "F fly" : "F walk";
     ImGui::SetNextWindowPos(ImVec2(display.x - kMargin * scale, display.y - kMargin * scale),
                             ImGuiCond_Always, ImVec2(1.0f, 1.0f));
-    ImGui::SetNextWindowBgAlpha(0.55f);
+    ImGui::SetNextWindowBgAlpha(0.75f);
     if (ImGui::Begin("##keys", nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |

@@ -47,8 +47,9 @@ void applyTheme(float scale) {
     colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.36f);
     colors[ImGuiCol_ScrollbarGrabActive] = grey(0.42f);
     colors[ImGuiCol_CheckMark] = kAccent;
-    colors[ImGuiCol_SliderGrab] = kAccentDim;
-    colors[ImGuiCol_SliderGrabActive] = kAccent;
+    // Pale enough to read the value through it.
+    colors[ImGuiCol_SliderGrab] = {kAccent.x, kAccent.y, kAccent.z, 0.38f};
+    colors[ImGuiCol_SliderGrabActive] = {kAccent.x, kAccent.y, kAccent.z, 0.6f};
     colors[ImGuiCol_Button] = grey(0.20f);
     colors[ImGuiCol_ButtonHovered] = grey(0.27f);
     colors[ImGuiCol_ButtonActive] = grey(0.32f);

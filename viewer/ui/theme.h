@@ -7,7 +7,6 @@
 namespace fluxwalk::ui {
 
 inline const ImVec4 kAccent{0.96f, 0.72f, 0.36f, 1.0f};
-inline const ImVec4 kAccentDim{0.62f, 0.48f, 0.27f, 1.0f};
 inline const ImVec4 kTextDim{0.62f, 0.62f, 0.63f, 1.0f};
 inline const ImVec4 kWarning{0.95f, 0.45f, 0.36f, 1.0f};
 /// Second line of plots.

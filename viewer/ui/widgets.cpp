@@ -17,7 +17,10 @@ constexpr float kLabelPart = 0.40f;
 bool beginSection(const char* title) {
     ImGui::Spacing();
     ImGui::PushStyleColor(ImGuiCol_Text, kAccent);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        ImVec2(0.3f * ImGui::GetStyle().FramePadding.x, ImGui::GetStyle().FramePadding.y));
     const bool isOpen = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+    ImGui::PopStyleVar();
     ImGui::PopStyleColor();
     return isOpen;
 }
