@@ -170,12 +170,15 @@ class Refinement {
         return (preferA && canA) || !canB ? Verdict::splitA : Verdict::splitB;
     }
 
+    // From what the link keeps alone, so that a new pair and a standing link are judged alike.
     Verdict judge(const Link& link) const {
         const float v = link.visibility();
-        const bool isMixed = !link.isOpen() && v > 0.0f && v < 1.0f;
-        const float upper = link.isOpen() ? 1.0f
-                                          : transport::visibilityUpperBound(
-                                                v, isMixed ? transport::kSecondRays : transport::kFirstRays);
+        const NodeKind kindB = hierarchy_.kind(link.b);
+        // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
+        const bool isMixed = !link.isOpen() && v > 0.0f && v < 1.0f && kindB != NodeKind::sky;
+        const unsigned rays =
+            isMixed || kindB != NodeKind::element ? transport::kSecondRays : transport::kFirstRays;
+        const float upper = link.isOpen() ? 1.0f : transport::visibilityUpperBound(v, rays);
         const transport::LinkAssessment assessment = assessLink(link, upper, isMixed);
         return assessment.error <= threshold_ ? Verdict::accept : chooseSplit(link, assessment.splitA);
     }
@@ -212,9 +215,7 @@ class Refinement {
             return d;
         }
         setCoefficient(d.link, c);
-        const float upper = c.isOpen ? 1.0f : transport::visibilityUpperBound(c.visibility, c.rays);
-        const transport::LinkAssessment assessment = assessLink(d.link, upper, c.isMixed);
-        d.verdict = assessment.error <= threshold_ ? Verdict::accept : chooseSplit(d.link, assessment.splitA);
+        d.verdict = judge(d.link);
         return d;
     }
 

@@ -51,20 +51,31 @@ struct Stage {
     }
 };
 
+// Stratum of the other end that meets stratum i, both 4 x 4 or 8 x 8: an orthogonal array of strength 2, so
+// that any column or row of one end meets every column and row of the other (x + y and x + 2 y in the field
+// of 4 or 8 elements). Shadow edges run along them.
+unsigned oppositeStratum(unsigned i, unsigned side, unsigned maskX, unsigned maskY) {
+    constexpr std::array<unsigned, 4> kTwice4{0, 2, 3, 1};
+    constexpr std::array<unsigned, 8> kTwice8{0, 2, 4, 6, 3, 1, 7, 5};
+    const unsigned x = i % side;
+    const unsigned y = i / side;
+    const unsigned twice = side == 4 ? kTwice4[y] : kTwice8[y];
+    return ((x ^ twice) ^ maskY) * side + ((x ^ y) ^ maskX);
+}
+
 Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const ElementSampler& b, unsigned side,
                 std::uint64_t key) {
     const unsigned count = side * side;
     std::array<rays::Ray, kSecondRays> bundle;
     std::array<double, kSecondRays> weights{};
     std::array<std::uint8_t, kSecondRays> blocked{};
-    // Strata of b in another order: an odd factor and a mask permute them.
-    const unsigned factor = static_cast<unsigned>(key >> 7 & (count - 1)) | 1u;
-    const unsigned mask = static_cast<unsigned>(key >> 20) & (count - 1);
+    const unsigned maskX = static_cast<unsigned>(key >> 7) & (side - 1);
+    const unsigned maskY = static_cast<unsigned>(key >> 20) & (side - 1);
     unsigned used = 0;
     for (unsigned i = 0; i < count; ++i) {
         const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
         const SurfaceSample p = a.inStratum(i, side, jitter.x, jitter.y);
-        const SurfaceSample q = b.inStratum((i * factor ^ mask) & (count - 1), side, jitter.z, jitter.w);
+        const SurfaceSample q = b.inStratum(oppositeStratum(i, side, maskX, maskY), side, jitter.z, jitter.w);
         const Vec3d d = q.position - p.position;
         const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
         const double r2 = glm::dot(d, d);

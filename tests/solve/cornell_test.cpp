@@ -18,7 +18,7 @@ class CornellBox : public testing::Test {
   protected:
     static void SetUpTestSuite() {
         solve::Options options;
-        options.threshold = 2e-8;  // lux; the mean is 1e-2
+        options.threshold = 5e-9;  // lux; the mean is 1e-2
         solver_ = std::make_unique<solve::Solver>(
             std::make_shared<const scene::Scene>(*scene::buildScene("cornell-box-unit")), options, 2);
         solver_->solve({});

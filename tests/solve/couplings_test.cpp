@@ -62,7 +62,8 @@ TEST(Couplings, wedgeOfThirtyDegrees) {
 TEST(Couplings, otherGapsAndAngles) {
     for (const double gap : {.5, 2.0, 10.0}) {
         const double exact = closed_forms::parallelRectangles(1, 1, gap);
-        EXPECT_NEAR(transportedFactor(scene::buildParallelSquares(gap), 1e-6 * exact) / exact, 1.0, 1e-3) << gap;
+        EXPECT_NEAR(transportedFactor(scene::buildParallelSquares(gap), 1e-6 * exact) / exact, 1.0, 1e-3)
+            << gap;
     }
     // ALGORITHMS 3.2.
     for (const auto& [degrees, exact] : {std::pair{60.0, .370905321}, std::pair{120.0, .086615001}}) {

@@ -38,7 +38,9 @@ class Furnace : public testing::Test {
         }
         test::converge(*problem_, 1e-8);
         return test::deviations(*problem_, [&](NodeId id) {
-            return static_cast<double>(problem_->hierarchy.light(id).radiosity.g) * (1.0 - static_cast<double>(rho)) - 1.0;
+            return static_cast<double>(problem_->hierarchy.light(id).radiosity.g) *
+                       (1.0 - static_cast<double>(rho)) -
+                   1.0;
         });
     }
 

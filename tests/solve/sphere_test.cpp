@@ -1,7 +1,8 @@
+#include "core/surface/sphere.h"
+
 #include <gtest/gtest.h>
 
 #include "core/scene/polygons.h"
-#include "core/surface/sphere.h"
 #include "tests/support/solving.h"
 
 // Check 11: inside of a sphere, one octant emits, reflectance .8. The irradiance is the same everywhere.
@@ -18,7 +19,8 @@ using test::Problem;
 std::unique_ptr<Problem> makeSphere() {
     scene::Scene scene;
     const std::uint32_t lit = scene::addMaterial(scene, "lit", Rgb(.8f), Rgb(1.0f));
-    scene.objects.push_back({"sphere", std::make_shared<surface::Sphere>(base::Vec3d(.5, 1, -2), 1.25, true), lit});
+    scene.objects.push_back(
+        {"sphere", std::make_shared<surface::Sphere>(base::Vec3d(.5, 1, -2), 1.25, true), lit});
     auto problem = test::makeProblem(std::move(scene));
     for (std::uint32_t patch = 1; patch < 8; ++patch) {
         hierarchy::Light& light = problem->hierarchy.light(problem->hierarchy.patchNode(0, patch, false));

@@ -19,8 +19,8 @@ using base::NodeId;
 using base::Vec3d;
 using test::Problem;
 
-constexpr double kLength = 200.0;  // what is missing beyond the ends counts 1e-4
-constexpr unsigned kSegments = 25;
+constexpr double kLength = 80.0;  // what is missing beyond the ends counts 1e-5
+constexpr unsigned kSegments = 20;
 constexpr std::uint32_t kMiddle = kSegments / 2;
 
 // Every plate is cut into 2^level columns, linked leaf to leaf wherever the kernel is not constant.
@@ -31,7 +31,7 @@ std::unique_ptr<Problem> solveStrips(unsigned level) {
     for (unsigned i = 0; i < level; ++i) {
         problem->hierarchy.split(test::leavesOf(problem->hierarchy), problem->executor);
     }
-    test::refine(*problem, 1e-7);
+    test::refine(*problem, 1e-8);
     test::converge(*problem, 1e-8);
     return problem;
 }
@@ -126,7 +126,8 @@ Errors measureErrors(const Problem& problem, const ExactStrips& exact) {
             // Corners 0 and 1, or 0 and 3, span the strip's width.
             const bool alongS = std::abs(shape.corners[1].x - shape.corners[0].x) > 1e-6f;
             const base::Vec3& end = alongS ? shape.corners[1] : shape.corners[3];
-            const double x = (1 - t) * static_cast<double>(shape.corners[0].x) + t * static_cast<double>(end.x);
+            const double x =
+                (1 - t) * static_cast<double>(shape.corners[0].x) + t * static_cast<double>(end.x);
             const double slope = static_cast<double>(alongS ? light.slopeS.g : light.slopeT.g);
             const double share = 1.0 / (kSteps * static_cast<double>(leaves.size()));
             errors.constant += share * std::abs(b - exact.radiosity(x));

@@ -35,7 +35,9 @@ inline bool refine(Problem& problem, double threshold) {
 /// does.
 inline int converge(Problem& problem, double residual = 1e-7, int most = 1000) {
     solve::Sweeper sweeper(problem);
-    for (int i = 1; i <= most; ++i) {
+    // The first sweep may still read radiosities that nothing emits or reflects any more.
+    sweeper.sweep();
+    for (int i = 2; i <= most; ++i) {
         if (sweeper.sweep() <= residual) {
             return i;
         }
