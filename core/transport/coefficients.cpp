@@ -58,6 +58,9 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
 }  // namespace
 
 float visibilityUpperBound(float visibility, unsigned rays) {
+    if (visibility >= 1.0f) {
+        return 1.0f;
+    }
     const auto n = static_cast<float>(rays);
     const float p = (visibility * n + 1.0f) / (n + 2.0f);
     return std::min(1.0f, p + std::sqrt(p * (1.0f - p) / (n + 3.0f)));

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/polygons.h"
-#include "tests/hierarchy/built.h"
+#include "tests/support/built.h"
 
 namespace fluxwalk {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/hierarchy/hierarchy.h"
 #include "core/scene/builders.h"
 #include "core/surface/sphere.h"
-#include "tests/hierarchy/built.h"
+#include "tests/support/built.h"
 #include "tests/support/random_scenes.h"
 
 namespace fluxwalk {
