@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -11,6 +12,9 @@ namespace fluxwalk::base {
 using Lanes = double __attribute__((vector_size(64)));
 using LaneMask = std::int64_t __attribute__((vector_size(64)));
 inline constexpr int kLanes = 8;
+/// For structures that hold lanes: their natural alignment depends on the instruction set that a file is
+/// compiled for, and kernels for wider ones load and store whole vectors in what others made.
+inline constexpr std::size_t kLanesAlignment = 64;
 
 #define FLUXWALK_INLINE [[gnu::always_inline]] inline
 
@@ -72,7 +76,7 @@ FLUXWALK_INLINE Lanes angleLanes(Lanes sine, Lanes cosine) {
     return cosine < 0.0 ? 3.1415926535897931 - a : a;
 }
 
-struct Lanes3 {
+struct alignas(kLanesAlignment) Lanes3 {
     Lanes x;
     Lanes y;
     Lanes z;

@@ -13,7 +13,7 @@ using base::Vec3d;
 /// points (2 x 2 Gauss of the region, or three points of a triangle) whose weights sum to 1, the others are
 /// the corners (weight 0), which show what cubature misses: a horizon that crosses the element, and the full
 /// range of the kernel.
-struct ElementPoints {
+struct alignas(base::kLanesAlignment) ElementPoints {
     base::Lanes3 position;
     base::Lanes3 normal;
     Lanes weight;
@@ -35,7 +35,7 @@ const std::array<base::Vec2d, base::kLanes>& localPointCoordinates(std::uint32_t
 
 /// Denser cubature of a planar element: 4 x 4 Gauss points in two blocks of lanes, weights sum to 1 over
 /// both.
-struct DensePoints {
+struct alignas(base::kLanesAlignment) DensePoints {
     std::array<base::Lanes3, 2> position;
     std::array<Lanes, 2> weight;
 };

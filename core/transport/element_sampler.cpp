@@ -5,11 +5,12 @@
 
 namespace fluxwalk::transport {
 
-ElementSampler::ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id)
+ElementSampler::ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id, double shift)
     : shape_(hierarchy.shape(id)),
       surface_(hierarchy.surfaceOf(id)),
       name_(hierarchy.name(id)),
-      axis_(hierarchy.shape(id).axis) {
+      axis_(hierarchy.shape(id).axis),
+      shift_(shift) {
     if (!shape_.isPlanar) {
         region_ = hierarchy.region(id);
     }
@@ -20,6 +21,12 @@ ElementSampler::ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id)
     }
     for (std::uint32_t i = 0; i < shape_.cornerCount; ++i) {
         corners_[i] = Vec3d(shape_.corners[i]);
+    }
+    if (shape_.isPlanar && shape_.cornerCount == 4) {
+        const auto& c = corners_;
+        const double atStart = glm::length(glm::cross(c[1] - c[0], c[3] - c[0]));
+        alongS_ = glm::length(glm::cross(c[1] - c[0], c[2] - c[1])) / atStart - 1.0;
+        alongT_ = glm::length(glm::cross(c[2] - c[3], c[3] - c[0])) / atStart - 1.0;
     }
 }
 
@@ -37,7 +44,8 @@ SurfaceSample ElementSampler::at(const base::Vec2d& st) const {
         const double root = std::sqrt(s);
         return {(root * (1.0 - t)) * c[0] + (1.0 - root) * c[1] + (t * root) * c[2], axis_, 1.0};
     }
-    return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_, 1.0};
+    return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_,
+            1.0 + s * alongS_ + t * alongT_};
 }
 
 SurfaceSample ElementSampler::inCell(unsigned cell) const {
@@ -50,7 +58,7 @@ SurfaceSample ElementSampler::inStratum(unsigned stratum, unsigned side, double 
         const unsigned row = stratum / side;
         return at({(stratum % side + jx) / side, (row + jy) / side});
     }
-    const double place = (stratum + 0.5) * cellCount_ / (static_cast<double>(side) * side);
+    const double place = (stratum + shift_) * cellCount_ / (static_cast<double>(side) * side);
     const unsigned cell = cells_[std::min(cellCount_ - 1, static_cast<unsigned>(place))];
     const unsigned row = cell / 4;
     return at({(cell % 4 + jx) * 0.25, (row + jy) * 0.25});

@@ -18,7 +18,9 @@ struct SurfaceSample {
 /// Points of one element; the hierarchy must stay as it is meanwhile.
 class ElementSampler {
   public:
-    ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id);
+    /// `shift` in [0, 1), random: moves the strata of an element that is partly hidden, whose cells cannot
+    /// all get the same number of them.
+    ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id, double shift = 0.5);
 
     /// Point at coordinates of the region's unit square.
     SurfaceSample at(const base::Vec2d& st) const;
@@ -36,6 +38,10 @@ class ElementSampler {
     surface::Region region_;
     std::array<Vec3d, 4> corners_{};
     Vec3d axis_{};
+    /// Relative growth of a planar quad's area measure along its two coordinates: it is linear in each.
+    double alongS_ = 0.0;
+    double alongT_ = 0.0;
+    double shift_;
     std::array<std::uint8_t, 16> cells_{};
     unsigned cellCount_ = 0;
 };

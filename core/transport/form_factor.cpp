@@ -115,7 +115,7 @@ FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const Ele
     return base::minLanes(source.area * sum, splat(1.0));
 }
 
-struct OneWay {
+struct alignas(base::kLanesAlignment) OneWay {
     Lanes values{};
     double mean = 0.0;
     double largest = 0.0;

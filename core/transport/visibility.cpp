@@ -51,17 +51,40 @@ struct Stage {
     }
 };
 
-// Stratum of the other end that meets stratum i, both 4 x 4 or 8 x 8: an orthogonal array of strength 2, so
-// that any column or row of one end meets every column and row of the other (x + y and x + 2 y in the field
-// of 4 or 8 elements). Shadow edges run along them.
-unsigned oppositeStratum(unsigned i, unsigned side, unsigned maskX, unsigned maskY) {
-    constexpr std::array<unsigned, 4> kTwice4{0, 2, 3, 1};
-    constexpr std::array<unsigned, 8> kTwice8{0, 2, 4, 6, 3, 1, 7, 5};
-    const unsigned x = i % side;
-    const unsigned y = i / side;
-    const unsigned twice = side == 4 ? kTwice4[y] : kTwice8[y];
-    return ((x ^ twice) ^ maskY) * side + ((x ^ y) ^ maskX);
-}
+/// Which stratum of the other end goes with each of side x side strata (side 4 or 8): an orthogonal array of
+/// strength 2 in Owen's random order (Bose 1938; Owen 1992). For each two of the four coordinates every
+/// combination of strata occurs once, so that an edge between the ends is sampled evenly wherever it runs.
+class Pairing {
+  public:
+    Pairing(unsigned side, std::uint64_t key) : side_(side), polynomial_(side == 4 ? 0b111u : 0b1011u) {
+        shuffle(columns_, base::mix(key));
+        shuffle(rows_, base::mix(key + 1));
+    }
+
+    unsigned operator()(unsigned stratum) const {
+        // Arithmetic of GF(4) or GF(8).
+        const unsigned column = stratum % side_;
+        const unsigned row = stratum / side_;
+        const unsigned doubled = column << 1;
+        const unsigned twice = doubled ^ ((doubled & side_) != 0 ? polynomial_ : 0u);
+        return rows_[row ^ twice] * side_ + columns_[row ^ column];
+    }
+
+  private:
+    void shuffle(std::array<std::uint8_t, 8>& order, std::uint64_t bits) const {
+        for (unsigned i = 0; i < side_; ++i) {
+            const auto j = static_cast<unsigned>((bits & 0xffu) * (i + 1) >> 8);
+            bits >>= 8;
+            order[i] = order[j];
+            order[j] = static_cast<std::uint8_t>(i);
+        }
+    }
+
+    unsigned side_;
+    unsigned polynomial_;
+    std::array<std::uint8_t, 8> columns_{};
+    std::array<std::uint8_t, 8> rows_{};
+};
 
 Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const ElementSampler& b, unsigned side,
                 std::uint64_t key) {
@@ -69,13 +92,12 @@ Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const Eleme
     std::array<rays::Ray, kSecondRays> bundle;
     std::array<double, kSecondRays> weights{};
     std::array<std::uint8_t, kSecondRays> blocked{};
-    const unsigned maskX = static_cast<unsigned>(key >> 7) & (side - 1);
-    const unsigned maskY = static_cast<unsigned>(key >> 20) & (side - 1);
+    const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < count; ++i) {
         const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
         const SurfaceSample p = a.inStratum(i, side, jitter.x, jitter.y);
-        const SurfaceSample q = b.inStratum(oppositeStratum(i, side, maskX, maskY), side, jitter.z, jitter.w);
+        const SurfaceSample q = b.inStratum(partner(i), side, jitter.z, jitter.w);
         const Vec3d d = q.position - p.position;
         const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(q.normal, d));
         const double r2 = glm::dot(d, d);
@@ -113,8 +135,8 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         std::swap(keyA, keyB);
     }
     const std::uint64_t key = base::combine(keyA, keyB);
-    const ElementSampler onA(hierarchy, a);
-    const ElementSampler onB(hierarchy, b);
+    const ElementSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
+    const ElementSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
     const Stage first = castPairs(rays, onA, onB, 4, key);
     VisibilitySample sample = toSample(first);
     if (sample.isMixed) {
@@ -130,13 +152,14 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
 VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
                                         NodeId element, NodeId source) {
     const std::uint64_t key = base::combine(hierarchy.key(element), hierarchy.key(source));
-    const ElementSampler sampler(hierarchy, element);
+    const ElementSampler sampler(hierarchy, element, base::toUnit(base::mix(key)));
     const bool isSky = hierarchy.kind(source) == hierarchy::NodeKind::sky;
     const unsigned side = 8;
     std::array<rays::Ray, kSecondRays> bundle;
     std::array<double, kSecondRays> weights{};
     std::array<unsigned, kSecondRays> quarters{};
     std::array<std::uint8_t, kSecondRays> blocked{};
+    const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < side * side; ++i) {
         const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
@@ -144,8 +167,8 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
         rays::Ray ray;
         double weight = p.measure;
         if (isSky) {
-            // Directions uniform over the upper hemisphere, strata permuted against those of the receiver.
-            const unsigned j = (i * 37u + 11u) & 63u;
+            // Directions uniform over the upper hemisphere.
+            const unsigned j = partner(i);
             const double y = (j % side + jitter.z) / side;
             const unsigned row = j / side;
             const double angle = 2.0 * base::kPi * (row + jitter.w) / side;

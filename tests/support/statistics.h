@@ -17,7 +17,9 @@ class Sample {
     }
     std::size_t count() const { return count_; }
     double mean() const { return mean_; }
-    double deviation() const { return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : 0.0; }
+    double deviation() const {
+        return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : 0.0;
+    }
     double standardError() const { return deviation() / std::sqrt(static_cast<double>(count_)); }
 
   private:

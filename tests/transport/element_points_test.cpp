@@ -16,8 +16,8 @@ using base::NodeId;
 using base::Vec3d;
 using test::Built;
 using transport::ElementPoints;
-using transport::makeElementPoints;
 using transport::LinearFit;
+using transport::makeElementPoints;
 
 Vec3d laneOf(const base::Lanes3& v, int i) {
     return {v.x[i], v.y[i], v.z[i]};
@@ -39,6 +39,14 @@ void forElements(const Built& built, const Check& check) {
             check(NodeId{n}, makeElementPoints(built.tree, NodeId{n}));
         }
     }
+}
+
+// Kernels for wide instruction sets load whole vectors from objects that other files made.
+TEST(ElementPoints, areAlignedForTheWidestKernel) {
+    EXPECT_EQ(alignof(ElementPoints), 64u);
+    EXPECT_EQ(alignof(transport::DensePoints), 64u);
+    std::vector<ElementPoints> many(3);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(many.data()) % 64, 0u);
 }
 
 TEST(ElementPoints, lieOnTheSurfaceWithItsNormals) {
@@ -105,12 +113,14 @@ TEST(ElementPoints, cubatureIsExactToItsDegree) {
         }
         return sum;
     };
-    const Built built(test::sceneOf({{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}}}));
+    const Built built(
+        test::sceneOf({{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}}}));
     const ElementPoints quad = makeElementPoints(built.tree, built.tree.patchNode(0, 0, false));
     const ElementPoints triangle = makeElementPoints(built.tree, built.tree.patchNode(1, 0, false));
     ASSERT_EQ(quad.cornerCount, 4u);
     ASSERT_EQ(triangle.cornerCount, 3u);
-    EXPECT_NEAR(integrate(quad, [](const Vec3d& p) { return p.x * p.x * p.x * p.y * p.y; }), 2.0 / 3.0, 1e-12);
+    EXPECT_NEAR(integrate(quad, [](const Vec3d& p) { return p.x * p.x * p.x * p.y * p.y; }), 2.0 / 3.0,
+                1e-12);
     EXPECT_NEAR(integrate(triangle, [](const Vec3d& p) { return p.x * p.y; }), 1.0 / 12.0, 1e-12);
     EXPECT_NEAR(integrate(triangle, [](const Vec3d& p) { return p.x * p.x; }), 1.0 / 6.0, 1e-12);
     for (const ElementPoints* e : {&quad, &triangle}) {
@@ -166,7 +176,8 @@ TEST(AngleLanes, isAccurateEverywhere) {
         for (int i = 0; i < kLanes; ++i) {
             // Every second one near 0 or pi, and of any size.
             const double small = std::exp2(-60.0 * random.next());
-            const double angle = i % 2 == 0 ? base::kPi * random.next() : (i % 4 == 1 ? small : base::kPi - small);
+            const double angle =
+                i % 2 == 0 ? base::kPi * random.next() : (i % 4 == 1 ? small : base::kPi - small);
             const double size = std::exp2(80.0 * random.next() - 40.0);
             sine[i] = size * std::abs(std::sin(angle));
             cosine[i] = size * std::cos(angle);
@@ -182,7 +193,6 @@ TEST(AngleLanes, isAccurateEverywhere) {
         }
     }
     EXPECT_LT(worst, 1e-11);
-    std::cout << "STAT angle " << worst << '\n';
     const Lanes zero = base::angleLanes(base::splat(0.0), base::splat(0.0));
     const Lanes straight = base::angleLanes(base::splat(0.0), base::splat(-2.0));
     const Lanes right = base::angleLanes(base::splat(3.0), base::splat(0.0));

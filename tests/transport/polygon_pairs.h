@@ -80,16 +80,17 @@ inline PolygonPair randomPair(Placement placement, base::RandomStream& random) {
     switch (placement) {
         case Placement::far:
         case Placement::middle: {
-            const double gap =
-                (1.0 + size) * (placement == Placement::far ? 4.5 + 15.0 * random.next() : 1.2 + 2.6 * random.next());
+            const double gap = (1.0 + size) * (placement == Placement::far ? 4.5 + 15.0 * random.next()
+                                                                           : 1.2 + 2.6 * random.next());
             const Vec3d d = leaning(up, 1.2, random);
             pair.b = place(shape, leaning(-d, 1.0, random), size, gap * d);
             break;
         }
         case Placement::near:
             // Over each other, tilted little enough not to touch.
-            pair.b = place(shape, leaning(-up, 0.2, random), size,
-                           Vec3d(random.next() - 0.5, random.next() - 0.5, 0.25 * size + 0.1 + 0.4 * random.next()));
+            pair.b = place(
+                shape, leaning(-up, 0.2, random), size,
+                Vec3d(random.next() - 0.5, random.next() - 0.5, 0.25 * size + 0.1 + 0.4 * random.next()));
             break;
         case Placement::sharedEdge: {
             // The edge of a turned up by 20 to 160 degrees about itself.
@@ -130,7 +131,8 @@ inline PolygonPair randomPair(Placement placement, base::RandomStream& random) {
         }
         case Placement::tinyOverHuge: {
             const double tiny = 0.003 + 0.02 * random.next();
-            const Vec3d at(random.next() - 0.5, random.next() - 0.5, tiny + 0.5 * random.next() * random.next());
+            const Vec3d at(random.next() - 0.5, random.next() - 0.5,
+                           tiny + 0.5 * random.next() * random.next());
             pair.b = place(shape, leaning(-up, 1.3, random), tiny, at);
             break;
         }

