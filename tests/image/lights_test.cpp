@@ -28,7 +28,7 @@ std::vector<scene::Sensor> sensors() {
     std::vector<scene::Sensor> all;
     for (int i = 0; i < 30; ++i) {
         const double u = (i + .5) / 30;
-        const double v = std::fmod(i * .618034, 1.0);
+        const double v = std::fmod(.03 + i * .618034, 1.0);
         all.push_back({{6 * u, 0, 6 * v}, {0, 1, 0}});
         all.push_back({{0, 3 * v, 6 * u}, {1, 0, 0}});
         all.push_back({{6 * u, 3 * v, 6}, {0, 0, -1}});

@@ -42,7 +42,7 @@ TEST(SensorsOnSurfaces, areCaptured) {
 
 // The darker room gets all its light through the door.
 TEST(SensorsOnSurfaces, lightThroughADoor) {
-    const auto solver = test::solveScene(scene::buildTwoRooms(), .05);
+    const auto solver = test::solveScene(scene::buildTwoRooms(), .02);
     std::vector<scene::Sensor> sensors;
     for (int i = 0; i < 40; ++i) {
         const double u = (i + .5) / 40;
