@@ -30,14 +30,17 @@ struct NormalCone {
         if (half >= kPi) {
             return {a.axis, kPi};
         }
-        // Turn a's axis towards b's by (half - a.halfAngle).
-        const Vec3d side = b.axis - glm::dot(a.axis, b.axis) * a.axis;
+        // Turn a's axis towards b's by (half - a.halfAngle). Axes that were stored as float have unit length
+        // to 1e-7 only: then what is left of nearly opposite ones would not be perpendicular.
+        const Vec3d from = glm::normalize(a.axis);
+        const Vec3d to = glm::normalize(b.axis);
+        const Vec3d side = to - glm::dot(from, to) * from;
         const double sideLength = glm::length(side);
-        if (sideLength < 1e-12) {
+        if (sideLength < 1e-6) {
             return {a.axis, kPi};
         }
         const double turn = half - a.halfAngle;
-        return {glm::normalize(std::cos(turn) * a.axis + std::sin(turn) / sideLength * side), half};
+        return {glm::normalize(std::cos(turn) * from + std::sin(turn) / sideLength * side), half};
     }
 };
 

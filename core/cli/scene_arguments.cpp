@@ -23,6 +23,8 @@ constexpr double kLargestSky = 1e6;  // lux; the sun and sky at noon give 1.2e5
 scene::Scene buildNamedScene(const std::string& name) {
     std::optional<scene::Scene> scene = scene::buildScene(name);
     if (scene) {
+        // Variants of one scene share a builder, not a name.
+        scene->name = name;
         return std::move(*scene);
     }
     std::vector<std::string> names;

@@ -192,7 +192,9 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
             patchSide_[i] = shaftItems_[from.item].patch * 2 + (from.back ? 1 : 0);
             patches_.push_back(id);
             patchNodes_[from.item][from.back ? 1 : 0] = id;
-        } else if (from.kind != NodeKind::cluster) {
+        } else if (from.kind == NodeKind::cluster) {
+            object_[i] = i;  // the name of a cluster is its place in the tree, which the scene fixes
+        } else {
             object_[i] = from.item;
             sources_.push_back(id);
             light_[i].radiosity = from.kind == NodeKind::sky ? scene.sky : scene.lights[from.item].intensity;

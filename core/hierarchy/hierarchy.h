@@ -87,7 +87,7 @@ class Hierarchy {
     unsigned childCount(NodeId id) const { return kind(id) == NodeKind::cluster ? 2 : 4; }
 
     ElementName name(NodeId id) const;
-    /// Hash of the name: the key of everything random about this node.
+    /// Hash of the name (clusters: place in the tree): the key of everything random about this node.
     std::uint64_t key(NodeId id) const;
     surface::Region region(NodeId id) const;
     const surface::Surface& surfaceOf(NodeId id) const;

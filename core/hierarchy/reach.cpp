@@ -18,6 +18,8 @@ namespace {
 /// backwards.
 constexpr unsigned kForwardWalks = 512;
 constexpr unsigned kBackwardWalks = 128;
+/// Light of the sun, which has no place to start from, is followed this often from every side it is found on.
+constexpr unsigned kOnwardWalks = 8;
 constexpr unsigned kMaxBounces = 16;
 
 /// A point on one side of an object.
@@ -97,6 +99,9 @@ class Explorer {
         for (const scene::Light& light : scene_.lights) {
             const bool isDirectional = light.kind == scene::LightKind::directional;
             const Vec3d d = isDirectional ? -light.direction : light.position - at.position;
+            if (!isDirectional && scene::intensityToward(light, -glm::normalize(d)) == base::Rgb(0.0f)) {
+                continue;
+            }
             if (glm::dot(at.normal, d) > 0.0 &&
                 !rays_.isOccluded(isDirectional
                                       ? rays_.halfLine(at.position, at.normal, d)
@@ -153,6 +158,9 @@ bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t ob
         Stand at = explorer.stand(object, back, walk, kBackwardWalks, random);
         for (unsigned bounce = 0; bounce < kMaxBounces; ++bounce) {
             if (explorer.seesEmitter(at, random)) {
+                for (unsigned onward = 0; onward < kOnwardWalks && !found.escaped; ++onward) {
+                    follow(explorer, at, cosineDirection(at.normal, random.next2()), random, found);
+                }
                 return true;
             }
             const Explorer::Step step = explorer.step(at, cosineDirection(at.normal, random.next2()));

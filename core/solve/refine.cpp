@@ -360,7 +360,7 @@ bool refineLinks(Problem& problem, double threshold, const std::function<bool()>
     std::vector<Query> pairs = isFirst ? refinement.fromRoot() : refinement.fromStandingLinks();
     const bool changed = !pairs.empty();
     while (!pairs.empty()) {
-        if (!isFirst && shouldStop && shouldStop()) {
+        if (shouldStop && shouldStop()) {
             refinement.acceptAll();
         }
         pairs = refinement.runWave(pairs);

@@ -30,8 +30,12 @@ constexpr std::size_t kAuditRays = 8192;
 constexpr std::size_t kFinalAuditRays = 262144;
 constexpr int kSweepsPerLevel = 4;
 constexpr int kFinalSweeps = 100;
+/// Even a stopped solve sweeps this often over its last links, so that what it keeps is lit.
+constexpr int kSweepsAfterStop = 2;
 constexpr double kFinalResidual = 1e-6;
 constexpr double kPublishInterval = 0.1;  ///< seconds
+/// The first picture waits for its second sweep or so: a millisecond more, and interreflection is there.
+constexpr double kFirstResidual = 0.1;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -167,7 +171,7 @@ class Run {
         for (int i = 0; i < most; ++i) {
             statistics.residual = sweeper.sweep();
             statistics.meanIrradiance = meanIrradiance(problem_.hierarchy);
-            if (statistics.residual <= residual) {
+            if (statistics.residual <= residual || (i + 1 >= kSweepsAfterStop && isStopped())) {
                 break;
             }
             publish(false);

@@ -87,6 +87,9 @@ double exposedShare(const hierarchy::Hierarchy& h, NodeId id, const ElementPoint
 }  // namespace
 
 float visibilityUpperBound(float visibility, unsigned rays) {
+    if (visibility >= 1.0f) {
+        return 1.0f;
+    }
     const auto n = static_cast<float>(rays);
     const float p = (visibility * n + 1.0f) / (n + 2.0f);
     return std::min(1.0f, p + std::sqrt(p * (1.0f - p) / (n + 3.0f)));

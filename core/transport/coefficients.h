@@ -51,7 +51,8 @@ class CoefficientService {
     const rays::RayScene& rays_;
 };
 
-/// Largest visibility that k of n unblocked rays still allow: (k + 1) / (n + 2) and one standard deviation.
+/// Largest visibility that k of n unblocked rays still allow: (k + 1) / (n + 2) and one standard deviation; 1
+/// where none was blocked.
 float visibilityUpperBound(float visibility, unsigned rays);
 
 }  // namespace fluxwalk::transport

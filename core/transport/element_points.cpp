@@ -99,7 +99,11 @@ ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id
         const hierarchy::ElementName name = hierarchy.name(id);
         const surface::Surface& surface = hierarchy.surfaceOf(id);
         const surface::Region region = hierarchy.region(id);
-        const auto& c = region.corners;
+        // In the order of the shape's corners, which run the other way round on a back side.
+        std::array<Vec2d, 4> c = region.corners;
+        if (name.back) {
+            std::reverse(c.begin(), c.begin() + region.cornerCount);
+        }
         for (int i = 0; i < base::kLanes; ++i) {
             const Vec2d at = local.at[static_cast<std::size_t>(i)];
             const Vec2d uv = region.cornerCount == 3 ? (1.0 - at.x - at.y) * c[0] + at.x * c[1] + at.y * c[2]

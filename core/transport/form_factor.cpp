@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/transport/form_factor_builds.h"
 
 namespace fluxwalk::transport {
 
@@ -227,20 +228,23 @@ LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLane
     return fit;
 }
 
-PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
-    static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
-    const BothWays views = hasAvx2 ? viewBothAvx2(a, b) : viewBothBaseline(a, b);
+namespace {
+
+PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWays& views) {
     const OneWay& atA = views.atA;
     const OneWay& atB = views.atB;
     PairFactor result;
     result.evaluations = views.evaluations;
     // Points of the smaller element see the larger one's exact factor vary least, so they weigh more; where
     // only one element is planar, its exact factor seen from the curved one counts alone.
-    double weightA = b.radius * b.radius / (a.radius * a.radius + b.radius * b.radius);
+    const double both = a.radius * a.radius + b.radius * b.radius;
+    double weightA = b.radius * b.radius / both;
+    double weightB = a.radius * a.radius / both;
     if (!views.far && a.isPlanar != b.isPlanar) {
         weightA = b.isPlanar ? 1.0 : 0.0;
+        weightB = 1.0 - weightA;
     }
-    result.coupling = weightA * a.area * atA.mean + (1.0 - weightA) * b.area * atB.mean;
+    result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {
         return result;
@@ -262,6 +266,21 @@ PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
     result.spreadA = fitA.deviation / meanA;
     result.spreadB = fitB.deviation / meanB;
     return result;
+}
+
+}  // namespace
+
+PairFactor computePairFactorBaseline(const ElementPoints& a, const ElementPoints& b) {
+    return combine(a, b, viewBothBaseline(a, b));
+}
+
+PairFactor computePairFactorAvx2(const ElementPoints& a, const ElementPoints& b) {
+    return combine(a, b, viewBothAvx2(a, b));
+}
+
+PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
+    static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
+    return hasAvx2 ? computePairFactorAvx2(a, b) : computePairFactorBaseline(a, b);
 }
 
 double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {

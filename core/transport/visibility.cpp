@@ -88,13 +88,8 @@ Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const Eleme
     }
     rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
     Stage stage;
-    // Near contact a few rays would carry all the weight: no ray counts more than four times the mean.
-    double mean = 0.0;
     for (unsigned i = 0; i < used; ++i) {
-        mean += weights[i] / used;
-    }
-    for (unsigned i = 0; i < used; ++i) {
-        stage.add(std::min(weights[i], 4.0 * mean), blocked[i] != 0);
+        stage.add(weights[i], blocked[i] != 0);
     }
     return stage;
 }

@@ -58,5 +58,21 @@ TEST(NormalCone, MergeHoldsEveryDirectionOfBoth) {
     }
 }
 
+TEST(NormalCone, MergeHoldsNearlyOppositeAxesThatWereStoredAsFloat) {
+    RandomStream random(8);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Vec3d direction = drawDirection(random);
+        const double apart = std::pow(10.0, -9.0 * random.next());
+        const NormalCone a{Vec3d(Vec3(direction)), 0.5 * random.next()};
+        const NormalCone b{Vec3d(Vec3(-lean(direction, apart, random))), 0.5 * random.next()};
+        const NormalCone merged = NormalCone::merge(a, b);
+        for (const NormalCone& part : {a, b}) {
+            EXPECT_LE(NormalCone::angleBetween(merged.axis, part.axis) + part.halfAngle,
+                      merged.halfAngle < kPi ? merged.halfAngle + 1e-6 : 2.0 * kPi)
+                << apart;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace fluxwalk::base

@@ -45,9 +45,9 @@ Json levels(const std::vector<Level>& levels) {
     return json;
 }
 
-Json loop(const ClosedLoop& loop, const TransportCosts& costs, unsigned threads) {
+Json loop(const ClosedLoop& loop, const TransportCosts& costs) {
     const solve::StageTimes& t = loop.statistics.times;
-    const RefineShares s = estimateShares(costs, loop.statistics, threads);
+    const RefineShares s = estimateShares(costs, loop.statistics.counters, loop.duration.cpuSeconds);
     return {{"of", nameOf(loop.what)},
             {"requested", loop.requested},
             {"seconds", loop.duration.seconds},
@@ -59,13 +59,10 @@ Json loop(const ClosedLoop& loop, const TransportCosts& costs, unsigned threads)
             {"stages",
              {{"build", t.build},
               {"refine", t.refine},
-              {"refineFormFactors", s.formFactors},
-              {"refineRays", s.rays},
-              {"refineRayTracing", s.tracing},
-              {"refineRest", s.rest},
               {"sweep", t.sweep},
               {"audit", t.audit},
-              {"display", t.display}}}};
+              {"display", t.display}}},
+            {"cpuShares", {{"formFactors", s.formFactors}, {"rays", s.rays}, {"tracing", s.tracing}}}};
 }
 
 Json costs(const TransportCosts& c) {
@@ -123,7 +120,7 @@ Json toJson(const SceneReport& r, const Targets& targets) {
               {"gatheredLevels", levels(r.gatheredLevels)},
               {"displayedLevels", levels(r.displayedLevels)}};
     for (const ClosedLoop& l : r.loops) {
-        json["closedLoops"].push_back(loop(l, r.costs, r.threads));
+        json["closedLoops"].push_back(loop(l, r.costs));
     }
     json["nanoseconds"] = costs(r.costs);
     json["bytesPerNode"] = {{"value", static_cast<double>(n.bytesNodes) / static_cast<double>(n.nodes)},

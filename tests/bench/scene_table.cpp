@@ -102,18 +102,19 @@ void addLoops(Out out, const SceneReport& r) {
 
 void addShares(Out out, const SceneReport& r) {
     fmt::format_to(out,
-                   "Share of each stage in %; refinement's parts from unit costs times counters\n"
+                   "Share of each stage in %; refinement's parts are CPU costs times counters\n"
                    "{:>11}   build  refine = factors    rays (traced)    rest   sweep   audit (display)\n",
                    "requested");
     for (const ClosedLoop& loop : r.loops) {
         const solve::StageTimes& t = loop.statistics.times;
-        const RefineShares s = estimateShares(r.costs, loop.statistics, r.threads);
+        const RefineShares s = estimateShares(r.costs, loop.statistics.counters, loop.duration.cpuSeconds);
         const auto part = [&](double seconds) { return 100.0 * seconds / loop.duration.seconds; };
         fmt::format_to(
             out,
             "{:>11} {:>7.1f} {:>7.1f} = {:>7.1f} {:>7.1f} {:>8.1f} {:>7.1f} {:>7.1f} {:>7.1f} {:>9.1f}\n",
-            describeRequest(loop), part(t.build), part(t.refine), part(s.formFactors), part(s.rays),
-            part(s.tracing), part(s.rest), part(t.sweep), part(t.audit), part(t.display));
+            describeRequest(loop), part(t.build), part(t.refine), 100.0 * s.formFactors, 100.0 * s.rays,
+            100.0 * s.tracing, part(t.refine) - 100.0 * (s.formFactors + s.rays), part(t.sweep),
+            part(t.audit), part(t.display));
     }
     fmt::format_to(out,
                    "(rest: certificates, decisions, splits, lists; audit holds the error estimate, which "
@@ -124,19 +125,18 @@ void addCosts(Out out, const SceneReport& r, const Targets& targets) {
     const TransportCosts& c = r.costs;
     const ClosedLoop& last = r.loops.back();
     const solve::Counters& n = last.statistics.counters;
-    const auto rate = [&](double nanoseconds) { return 1e3 * r.threads / nanoseconds; };
+    const double refineCpu = last.statistics.times.refine * last.duration.cpuSeconds / last.duration.seconds;
     fmt::format_to(out,
-                   "One thread, over {} links ({} not certainly open): form factor {:.2f} us, certificate "
-                   "{:.2f} us, ray with its generation {:.0f} ns\n",
+                   "CPU time, over {} links ({} that are not certainly open): form factor {:.2f} us, "
+                   "certificate {:.2f} us, ray with its generation {:.0f} ns\n",
                    shorten(c.links), shorten(c.testedLinks), 1e-3 * c.perFactor, 1e-3 * c.perCertificate,
                    c.perRay);
-    fmt::format_to(
-        out,
-        "Million rays a second: {:.1f} in refinement as a whole, {:.1f} in visibility, {:.1f} bare "
-        "in bundles of 16, {:.1f} bare one by one\n"
-        "(bare: segments made beforehand, Embree through the guard of core/rays)\n",
-        1e-6 * static_cast<double>(n.rays) / last.statistics.times.refine, rate(c.perRay),
-        rate(c.perBundledRay), rate(c.perSingleRay));
+    fmt::format_to(out,
+                   "Million rays a CPU second: {:.1f} in refinement as a whole, {:.1f} in visibility, {:.1f} "
+                   "bare in bundles of 16, {:.1f} bare one by one\n"
+                   "(bare: segments made beforehand, Embree through the guard of core/rays)\n",
+                   1e-6 * static_cast<double>(n.rays) / refineCpu, 1e3 / c.perRay, 1e3 / c.perBundledRay,
+                   1e3 / c.perSingleRay);
     fmt::format_to(
         out,
         "Bytes: {:.1f} a node (target {:g}); {:.1f} a directed link (target {:g}): a record and two "

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -41,24 +41,23 @@ std::vector<Link> sampleLinks(const Problem& problem, bool isTested) {
     return some;
 }
 
-// Nanoseconds of one thread for each of `count` calls of work(i), which returns what it counted; by that
-// count. The fastest of some rounds.
+// Nanoseconds of CPU time for each of `count` calls of work(i), which returns what it counted; by that count.
+// The fastest of some rounds.
 double measure(const base::Executor& executor, std::size_t count,
                const std::function<std::uint64_t(std::size_t)>& work) {
     double best = std::numeric_limits<double>::infinity();
     std::vector<std::uint64_t> counted(count, 0);
     for (int round = 0; round < kRounds; ++round) {
-        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t start = std::clock();
         executor.forRange(count, kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 counted[i] = work(i);
             }
         });
-        const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-        best = std::min(best, time.count());
+        best = std::min(best, 1e9 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     }
     const auto total = std::accumulate(counted.begin(), counted.end(), std::uint64_t{0});
-    return total > 0 ? best * executor.threadCount() / static_cast<double>(total) : 0.0;
+    return total > 0 ? best / static_cast<double>(total) : 0.0;
 }
 
 struct Point {
@@ -131,17 +130,12 @@ TransportCosts measureTransportCosts(const Problem& problem) {
     return costs;
 }
 
-RefineShares estimateShares(const TransportCosts& costs, const solve::Statistics& statistics,
-                            unsigned threads) {
-    const double perCount = 1e-9 / threads;
-    const auto evaluations = static_cast<double>(statistics.counters.kernelEvaluations);
-    const auto rays = static_cast<double>(statistics.counters.rays);
-    RefineShares shares;
-    shares.formFactors = evaluations * costs.perEvaluation * perCount;
-    shares.rays = rays * costs.perRay * perCount;
-    shares.tracing = rays * costs.perBundledRay * perCount;
-    shares.rest = statistics.times.refine - shares.formFactors - shares.rays;
-    return shares;
+RefineShares estimateShares(const TransportCosts& costs, const solve::Counters& counters, double cpuSeconds) {
+    const double perCount = 1e-9 / cpuSeconds;
+    const auto evaluations = static_cast<double>(counters.kernelEvaluations);
+    const auto rays = static_cast<double>(counters.rays);
+    return {evaluations * costs.perEvaluation * perCount, rays * costs.perRay * perCount,
+            rays * costs.perBundledRay * perCount};
 }
 
 }  // namespace fluxwalk::bench
