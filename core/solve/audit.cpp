@@ -5,6 +5,7 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/local_frame.h"
 
 namespace fluxwalk::solve {
 
@@ -99,8 +100,11 @@ double Audit::relativeDefect() const {
 }
 
 std::vector<float> computeRowSums(const Problem& problem, const std::vector<float>& scale) {
+    using base::Vec2;
     const Hierarchy& h = problem.hierarchy;
+    // What arrives where everything has radiosity 1, and its slopes: ends of links are linear (Sweeper).
     std::vector<float> sums(h.nodeCount(), 0.0f);
+    std::vector<Vec2> slopes(h.nodeCount(), Vec2(0.0f));
     // Parents stand before their children.
     for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
         const NodeId id{i};
@@ -108,24 +112,42 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
             continue;
         }
         double sum = 0.0;
+        Vec2 slope(0.0f);
         for (const std::uint32_t l : problem.links.endingAt(id)) {
             const hierarchy::Link& link = problem.links.links[l];
-            const NodeId source = link.a == id ? link.b : link.a;
+            const bool isA = link.a == id;
+            const NodeId source = isA ? link.b : link.a;
             if (h.kind(source) == NodeKind::element) {
                 const float factor = scale.empty() ? 1.0f : scale[i] * scale[base::index(source)];
-                sum += static_cast<double>(factor * link.transfer());
+                const float transfer = factor * link.transfer();
+                sum += static_cast<double>(transfer);
+                slope += transfer * (isA ? link.gradientA : link.gradientB).decode();
             }
         }
-        const NodeId parent = h.parent(id);
-        const bool isPatch = parent == NodeId::none || h.kind(parent) == NodeKind::cluster;
-        const auto area = static_cast<double>(h.shape(id).exposedArea());
-        sums[i] =
-            static_cast<float>(area > 0.0 ? sum / area : 0.0) + (isPatch ? 0.0f : sums[base::index(parent)]);
-    }
-    for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
-        if (h.kind(NodeId{i}) == NodeKind::element && !h.isLeaf(NodeId{i})) {
-            sums[i] = 0.0f;
+        const double area = static_cast<double>(h.shape(id).exposedArea());
+        const double perArea = area > 0.0 ? 1.0 / area : 0.0;
+        sums[i] += static_cast<float>(sum * perArea);
+        slopes[i] += slope * static_cast<float>(perArea);
+        if (h.isLeaf(id)) {
+            continue;
         }
+        // Children take over the linear function about their own mean, so that the means are kept.
+        const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(id).cornerCount);
+        Vec2 middle(0.0f);
+        float exposed = 0.0f;
+        for (unsigned c = 0; c < 4; ++c) {
+            const float part = h.shape(h.child(id, c)).exposedArea();
+            middle += part * Vec2(frame.quarters[c][0], frame.quarters[c][1]);
+            exposed += part;
+        }
+        middle = exposed > 0.0f ? middle / exposed : Vec2(0.0f);
+        for (unsigned c = 0; c < 4; ++c) {
+            const std::uint32_t child = base::index(h.child(id, c));
+            const Vec2 offset = Vec2(frame.quarters[c][0], frame.quarters[c][1]) - middle;
+            sums[child] = sums[i] + glm::dot(offset, slopes[i]);
+            slopes[child] = frame.quarterScale[c] * slopes[i];
+        }
+        sums[i] = 0.0f;
     }
     return sums;
 }

@@ -8,8 +8,9 @@ namespace fluxwalk::solve {
 /// `rayCount` cosine rays of the leaves, row sums of closed scenes from the links.
 Audit auditEnergy(const Problem& problem, std::size_t rayCount);
 
-/// Sum of the form factors that a leaf gathers through its own links and its ancestors', at index of each
-/// leaf's node; 0 elsewhere. `scale` multiplies the transfers of each node (Problem::rowScale), or is empty.
+/// Sum of the form factors that a leaf gathers through its own links and, as linear functions over them, its
+/// ancestors': what arrives where everything has radiosity 1. At index of each leaf's node; 0 elsewhere.
+/// `scale` multiplies the transfers of each node (Problem::rowScale), or is empty.
 std::vector<float> computeRowSums(const Problem& problem, const std::vector<float>& scale);
 
 }  // namespace fluxwalk::solve

@@ -177,34 +177,34 @@ class PointGather {
     }
 
     void addSky(NodeId source) {
-        // Strata of the upper hemisphere, uniform in solid angle; the cosine weighs them.
-        constexpr unsigned kSide = 16;
-        std::array<rays::Ray, kMaxRays> bundle;
-        std::array<double, kMaxRays> weights{};
-        std::array<std::uint8_t, kMaxRays> blocked{};
+        // Strata of the hemisphere over the point, by projected solid angle: all rays that rise count alike.
+        constexpr unsigned kSide = 32;
         base::RandomStream random(base::combine(key_, h_.key(source)));
+        const Vec3d across =
+            glm::normalize(glm::cross(n_, std::abs(n_.y) < 0.7 ? Vec3d(0, 1, 0) : Vec3d(0, 0, 1)));
+        const Vec3d along = glm::cross(n_, across);
+        std::array<rays::Ray, kMaxRays> bundle;
+        std::array<std::uint8_t, kMaxRays> blocked{};
         unsigned used = 0;
+        unsigned all = 0;
+        unsigned seen = 0;
         for (unsigned i = 0; i < kSide * kSide; ++i) {
             const Vec2d jitter = random.next2();
-            const double y = (i % kSide + jitter.x) / kSide;
-            const unsigned row = i / kSide;
-            const double angle = 2.0 * base::kPi * (row + jitter.y) / kSide;
-            const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
-            const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
-            const double cosine = glm::dot(n_, direction);
-            if (cosine > 0.0) {
-                weights[used] = cosine;
+            const double sine = std::sqrt((i % kSide + jitter.x) / kSide);
+            const double angle = 2.0 * base::kPi * (i / kSide + jitter.y) / kSide;
+            const Vec3d direction = sine * (std::cos(angle) * across + std::sin(angle) * along) +
+                                    std::sqrt(1.0 - sine * sine) * n_;
+            if (direction.y > 0.0) {
                 bundle[used++] = problem_.rays.halfLine(x_, n_, direction);
             }
+            if (used == kMaxRays || (i + 1 == kSide * kSide && used > 0)) {
+                problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+                seen += static_cast<unsigned>(std::count(blocked.begin(), blocked.begin() + used, 0));
+                all += used;
+                used = 0;
+            }
         }
-        problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
-        double seen = 0.0;
-        double all = 0.0;
-        for (unsigned i = 0; i < used; ++i) {
-            all += weights[i];
-            seen += blocked[i] != 0 ? 0.0 : weights[i];
-        }
-        if (all > 0.0) {
+        if (all > 0) {
             sum_ += 0.5 * (1.0 + n_.y) * seen / all * Vec3d(h_.light(source).radiosity);
         }
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/transport/exact_form_factor.h"
 #include "core/transport/form_factor_builds.h"
 
 namespace fluxwalk::transport {
@@ -245,6 +246,11 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
         weightB = 1.0 - weightA;
     }
     result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
+    const bool touch = glm::distance(a.center, b.center) < a.radius + b.radius;
+    if (touch && a.isPlanar && b.isPlanar && atA.largest > 0.0 && atB.largest > 0.0) {
+        result.coupling = polygonCoupling(std::span(a.corners.data(), a.cornerCount),
+                                          std::span(b.corners.data(), b.cornerCount));
+    }
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {
         return result;

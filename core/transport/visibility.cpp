@@ -14,6 +14,12 @@ namespace {
 
 using base::Vec3d;
 
+/// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
+/// if they see each other partly, the second stage is repeated. They are few. (Furnace of check 7: row sums
+/// within 1.5 % instead of 3 %, for 3 % more rays.)
+constexpr float kNear = 1.5f;
+constexpr unsigned kNearRounds = 16;
+
 /// Uniform numbers of 16 bits each, four from one mix: strata are far coarser than that.
 struct Jitter {
     double x;
@@ -45,6 +51,12 @@ struct Stage {
         seen += isBlocked ? 0.0 : w;
         blockedCount += isBlocked ? 1 : 0;
         ++count;
+    }
+    void add(const Stage& other) {
+        weight += other.weight;
+        seen += other.seen;
+        blockedCount += other.blockedCount;
+        count += other.count;
     }
     double ratio() const {
         return weight > 0.0 ? seen / weight : 1.0 - static_cast<double>(blockedCount) / count;
@@ -140,7 +152,14 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const Stage first = castPairs(rays, onA, onB, 4, key);
     VisibilitySample sample = toSample(first);
     if (sample.isMixed) {
-        const Stage second = castPairs(rays, onA, onB, 8, base::mix(key));
+        Stage second = castPairs(rays, onA, onB, 8, base::mix(key));
+        const hierarchy::Shape& shapeA = hierarchy.shape(a);
+        const hierarchy::Shape& shapeB = hierarchy.shape(b);
+        if (glm::distance(shapeA.center, shapeB.center) < kNear * (shapeA.radius + shapeB.radius)) {
+            for (unsigned round = 1; round < kNearRounds; ++round) {
+                second.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
+            }
+        }
         const auto firstRays = sample.rays;
         sample = toSample(second);
         sample.isMixed = true;

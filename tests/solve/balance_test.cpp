@@ -62,4 +62,18 @@ TEST(Balance, showsWhatStillTravels) {
     EXPECT_GT(solve::auditEnergy(*problem, 1000).relativeDefect(), .1);
 }
 
+// The audit's row sums are those of what is transported, at all levels of links.
+TEST(Balance, rowSumsAreTransported) {
+    const auto problem = test::makeProblem(*scene::buildScene("furnace"));
+    test::refine(*problem, 3e-5);
+    const std::vector<double> transported = test::transportedRowSums(*problem);
+    const std::vector<float> sums = solve::computeRowSums(*problem, {});
+    std::size_t inherited = 0;
+    for (const base::NodeId id : test::leavesOf(problem->hierarchy)) {
+        EXPECT_NEAR(static_cast<double>(sums[base::index(id)]), transported[base::index(id)], 1e-5);
+        inherited += problem->links.endingAt(problem->hierarchy.parent(id)).empty() ? 0u : 1u;
+    }
+    EXPECT_GT(inherited, 100u);
+}
+
 }  // namespace fluxwalk

@@ -40,10 +40,12 @@ std::vector<Vec3d> matrixMeans(const Scene& scene, unsigned level, unsigned visi
     return flux;
 }
 
+// The matrix's own error, that of its constant elements, is at most what its last quartering changed.
 void expectAgreement(const Scene& scene, unsigned level, unsigned visibilityRays, double relative) {
+    const std::vector<Vec3d> coarse = matrixMeans(scene, level - 1, visibilityRays);
     const std::vector<Vec3d> expected = matrixMeans(scene, level, visibilityRays);
     const auto problem = test::makeProblem(scene);
-    for (double threshold = 1e-3; threshold > 1e-6; threshold /= 4.0) {
+    for (double threshold = 1e-3; threshold > 5e-7; threshold /= 4.0) {
         test::refine(*problem, threshold);
         test::converge(*problem, 1e-6);
     }
@@ -51,7 +53,9 @@ void expectAgreement(const Scene& scene, unsigned level, unsigned visibilityRays
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Vec3d mean = test::meanIrradiance(*problem, i);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(mean[c], expected[i][c], relative * expected[i][c] + 1e-9)
+            const double ownError = std::abs(expected[i][c] - coarse[i][c]);
+            EXPECT_LE(ownError, .03 * expected[i][c]);
+            EXPECT_NEAR(mean[c], expected[i][c], relative * expected[i][c] + ownError)
                 << scene.objects[i].name << ", channel " << c;
         }
     }
@@ -60,11 +64,11 @@ void expectAgreement(const Scene& scene, unsigned level, unsigned visibilityRays
 }  // namespace
 
 TEST(AgainstFullMatrix, wedge) {
-    expectAgreement(scene::buildWedge(60.0, .7f), 3, 0, .002);
+    expectAgreement(scene::buildWedge(60.0, .7f), 4, 0, .001);
 }
 
 TEST(AgainstFullMatrix, parallelSquares) {
-    expectAgreement(scene::buildParallelSquares(.5, .9f), 3, 0, .002);
+    expectAgreement(scene::buildParallelSquares(.5, .9f), 4, 0, .001);
 }
 
 TEST(AgainstFullMatrix, cubeWithOneEmittingFace) {
@@ -75,15 +79,16 @@ TEST(AgainstFullMatrix, cubeWithOneEmittingFace) {
     scene::addPolygons(scene, "floor", bright, faces(scene::kBottom));
     scene::addPolygons(scene, "ceiling", dark, faces(scene::kTop));
     scene::addPolygons(scene, "sides", dark, faces(scene::kAround));
-    expectAgreement(scene, 3, 0, .003);
+    expectAgreement(scene, 3, 0, .002);
 }
 
-// A screen in the way: 256 elements a square, 64 rays a pair.
+// A screen in the way; its light is lost.
 TEST(AgainstFullMatrix, squaresWithAScreenBetween) {
     Scene scene = scene::buildParallelSquares(1.0, .5f);
     const std::uint32_t black = scene::addMaterial(scene, "black", Rgb(0.0f));
-    scene::addPolygons(scene, "screen", black, {{Vec3d(.2, .5, .3), {.2, .5, .8}, {.7, .5, .8}, {.7, .5, .3}}});
-    expectAgreement(scene, 4, 16, .01);
+    scene::addPolygons(scene, "screen", black,
+                       {{Vec3d(.2, .5, .3), {.2, .5, .8}, {.7, .5, .8}, {.7, .5, .3}}});
+    expectAgreement(scene, 4, 16, .005);
 }
 
 }  // namespace fluxwalk

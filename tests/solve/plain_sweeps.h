@@ -22,7 +22,8 @@ class PlainSweeps {
                 for (const std::uint32_t l : problem.links.endingAt(id)) {
                     const hierarchy::Link& link = problem.links.links[l];
                     const NodeId source = link.a == id ? link.b : link.a;
-                    gathers_.back().push_back({base::index(source), static_cast<double>(link.transfer()) / area});
+                    gathers_.back().push_back(
+                        {base::index(source), static_cast<double>(link.transfer()) / area});
                 }
             }
         }
@@ -77,7 +78,8 @@ class PlainSweeps {
     /// Radiosities of all nodes, those of inner nodes being the means of their leaves.
     class State {
       public:
-        explicit State(const PlainSweeps& plain) : plain_(plain), values_(plain.problem_.hierarchy.nodeCount()) {
+        explicit State(const PlainSweeps& plain)
+            : plain_(plain), values_(plain.problem_.hierarchy.nodeCount()) {
             for (const NodeId leaf : plain.leaves_) {
                 set(leaf, static_cast<double>(plain.problem_.hierarchy.light(leaf).emission.g));
             }

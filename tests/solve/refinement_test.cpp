@@ -61,23 +61,24 @@ TEST(Refinement, stepsLeadToTheSameLinks) {
         last = stepwise->links.links.size();
     }
     test::refine(*direct, .0625 * kThreshold);
-    EXPECT_EQ(linkNames(*stepwise), linkNames(*direct));
+    EXPECT_TRUE(linkNames(*stepwise) == linkNames(*direct));
     EXPECT_EQ(stepwise->hierarchy.leafCount(), direct->hierarchy.leafCount());
     // At rest nothing changes any more.
     EXPECT_FALSE(test::refine(*stepwise, .0625 * kThreshold));
 }
 
 TEST(Refinement, sweepsInBetweenCostNothing) {
-    constexpr double kLast = .0625 * kThreshold;
+    constexpr double kFirst = 4.0 * kThreshold;
+    constexpr double kLast = .0625 * kFirst;
     const auto exact = makeBox();
-    for (double threshold = kThreshold; threshold >= kLast / 70.0; threshold /= 4.0) {
+    for (double threshold = kFirst; threshold >= kLast / 20.0; threshold /= 4.0) {
         test::refine(*exact, threshold);
-        test::converge(*exact, 1e-6);
+        test::converge(*exact, 1e-4);
     }
-    const std::vector<solve::Probe> probes = solve::drawProbes(*exact, 400, 5);
+    const std::vector<solve::Probe> probes = solve::drawProbes(*exact, 150, 5);
     const std::vector<Rgb> reference = solve::gatherProbes(*exact, probes);
     const auto errorOf = [&](Problem& problem) {
-        test::converge(problem, 1e-6);
+        test::converge(problem, 1e-5);
         problem.statistics.meanIrradiance = .01;
         return solve::relativeRms(solve::gatherProbes(problem, probes), reference);
     };
@@ -85,12 +86,12 @@ TEST(Refinement, sweepsInBetweenCostNothing) {
         // The radiosities that refinement reads are those that its links lead to.
         for (int round = 0; round < 3; ++round) {
             test::refine(problem, kLast);
-            test::converge(problem, 1e-6);
+            test::converge(problem, 1e-4);
         }
     };
     const auto stepwise = makeBox();
     for (const double part : {1.0, .25}) {
-        test::refine(*stepwise, part * kThreshold);
+        test::refine(*stepwise, part * kFirst);
         test::converge(*stepwise, 1e-3);
     }
     settle(*stepwise);

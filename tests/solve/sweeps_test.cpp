@@ -66,9 +66,9 @@ TEST(Sweeps, cubeOfSixZones) {
         double emitting, opposite, side;
     };
     // Radiosities of ALGORITHMS 3.4.
-    for (const Row& row : {Row{.5f, 12, 1.09090910, .18174583, .18183627},
-                           Row{.8f, 33, 1.55172415, .68955107, .68968119},
-                           Row{.9f, 67, 2.37288137, 1.52531055, 1.52545202}}) {
+    for (const Row& row :
+         {Row{.5f, 12, 1.09090910, .18174583, .18183627}, Row{.8f, 33, 1.55172415, .68955107, .68968119},
+          Row{.9f, 67, 2.37288137, 1.52531055, 1.52545202}}) {
         const auto problem = makeCube(row.rho);
         hierarchy::Hierarchy& h = problem->hierarchy;
         solve::Sweeper sweeper(*problem);
@@ -79,7 +79,9 @@ TEST(Sweeps, cubeOfSixZones) {
             error = 0.0;
             for (const NodeId id : h.patches()) {
                 const bool isOpposite = h.name(id).object == 1 && h.shape(id).axis.y < -.5f;
-                const double exact = h.name(id).object == 0 ? row.emitting : isOpposite ? row.opposite : row.side;
+                const double exact = h.name(id).object == 0 ? row.emitting
+                                     : isOpposite           ? row.opposite
+                                                            : row.side;
                 error = std::max(error, std::abs(static_cast<double>(h.light(id).radiosity.g) / exact - 1.0));
             }
         }
@@ -113,7 +115,8 @@ TEST(Sweeps, blockedGaussSeidelInTheCornellBox) {
         } while (plain.errorOf(plain.radiosities(), exact) > kAccuracy && needed < 1000);
         if (threads == 1) {
             const int jacobi = plain.sweepsNeeded(test::PlainSweeps::Order::jacobi, exact, kAccuracy);
-            const int sequential = plain.sweepsNeeded(test::PlainSweeps::Order::gaussSeidel, exact, kAccuracy);
+            const int sequential =
+                plain.sweepsNeeded(test::PlainSweeps::Order::gaussSeidel, exact, kAccuracy);
             EXPECT_LE(needed, .65 * jacobi) << jacobi;
             EXPECT_LE(needed, 1.2 * sequential) << sequential;
         }

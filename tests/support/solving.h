@@ -89,18 +89,22 @@ inline void setReflectance(Problem& problem, float reflectance) {
     }
 }
 
-/// What the leaves get when everything has radiosity `radiosity(leaf)`, at the index of each leaf's node:
-/// links, push and pull as the solver does them. The solution that stands is kept.
+/// What the leaves get when elements have radiosity `radiosity(leaf)` and light sources are off, at the index
+/// of each leaf's node: links, push and pull as the solver does them. The solution that stands is kept.
 inline std::vector<double> transport(Problem& problem, const std::function<float(NodeId)>& radiosity) {
     hierarchy::Hierarchy& h = problem.hierarchy;
     std::vector<hierarchy::Light> kept;
+    std::vector<float> sent(h.nodeCount(), 0.0f);
     for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
         const NodeId id{i};
         kept.push_back(h.light(id));
-        if (h.kind(id) == hierarchy::NodeKind::element) {
-            h.light(id) = {};
-            h.light(id).emission = Rgb(h.isLeaf(id) ? radiosity(id) : 0.0f);
+        if (h.kind(id) == hierarchy::NodeKind::element && h.isLeaf(id)) {
+            sent[i] = radiosity(id);
         }
+    }
+    for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
+        h.light(NodeId{i}) = {};
+        h.light(NodeId{i}).emission = Rgb(sent[i]);
     }
     solve::Sweeper sweeper(problem);
     // The first sweep pulls the leaves' radiosity up, the second gathers it everywhere.
