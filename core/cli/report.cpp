@@ -77,9 +77,8 @@ Json countersJson(const solve::Counters& c) {
 }
 
 Json timesJson(const solve::StageTimes& t) {
-    return {{"build", t.build},           {"refine", t.refine}, {"formFactors", t.formFactors},
-            {"visibility", t.visibility}, {"sweep", t.sweep},   {"audit", t.audit},
-            {"display", t.display},       {"total", t.total}};
+    return {{"build", t.build}, {"refine", t.refine},   {"sweep", t.sweep},
+            {"audit", t.audit}, {"display", t.display}, {"total", t.total}};
 }
 
 Json auditJson(const solve::Audit& a) {

@@ -26,8 +26,6 @@ struct Audit {
 struct StageTimes {
     double build = 0.0;
     double refine = 0.0;
-    double formFactors = 0.0;
-    double visibility = 0.0;
     double sweep = 0.0;
     double audit = 0.0;
     double display = 0.0;

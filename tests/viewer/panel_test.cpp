@@ -33,8 +33,6 @@ solve::Snapshot makeSnapshot() {
     s.meanIrradiance = 12.5;
     s.times.total = 4.2;
     s.times.refine = 0.6;
-    s.times.formFactors = 1.1;
-    s.times.visibility = 1.9;
     for (int i = 0; i < 12; ++i) {
         solve::HistoryEntry entry;
         entry.seconds = 0.1 * std::exp2(0.5 * i);

@@ -42,8 +42,8 @@ void drawSolved(const solve::Statistics& s) {
     ImGui::Separator();
     showValue("Solving time", formatSeconds(s.times.total), "Since the start, without pauses.");
     const std::pair<const char*, double> stages[] = {
-        {"refining", s.times.refine},        {"form factors", s.times.formFactors},
-        {"visibility", s.times.visibility},  {"sweeps", s.times.sweep},
+        {"refining", s.times.refine},
+        {"sweeps", s.times.sweep},
         {"display meshes", s.times.display},
     };
     for (const auto& [name, seconds] : stages) {
