@@ -16,6 +16,7 @@ GridPoint stepFrom(const GridPoint& p, const GridPoint& step, std::uint32_t size
 }
 
 std::uint32_t signedSize(const Cell& cell) {
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the analyzer does not know bit_width
     const std::uint32_t size = kGridSize >> surface::pathLevel(cell.path);
     return cell.inverted ? 0u - size : size;
 }
@@ -101,6 +102,8 @@ class Balancer {
 
     void split(std::size_t index) {
         const Cell parent = cells_[index];
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the analyzer does not know
+        // bit_width
         const std::uint32_t half = kGridSize >> (surface::pathLevel(parent.path) + 1);
         cells_[index].firstChild = static_cast<std::uint32_t>(cells_.size());
         for (unsigned k = 0; k < 4; ++k) {

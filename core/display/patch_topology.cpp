@@ -68,6 +68,7 @@ class PatchTopology::Builder {
         const double largest = std::max(glm::length(box.lower), glm::length(box.upper));
         const double tolerance = kCutTolerance * largest;
         // Edges appended by cuts are looked at too.
+        // NOLINTNEXTLINE(modernize-loop-convert): the vector grows
         for (std::uint32_t e = 0; e < topology_.edges_.size(); ++e) {
             const Edge edge = topology_.edges_[e];
             const Vec3d from = topology_.corners_[edge.from];

@@ -1,6 +1,7 @@
 #include "core/io/gltf_nodes.h"
 
 #include <cmath>
+#include <ranges>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -19,10 +20,8 @@ base::Mat4d localTransform(const GltfModel& model, int index) {
     const tinygltf::Node& node = model.data.nodes[static_cast<std::size_t>(index)];
     base::Mat4d m(1.0);
     if (node.matrix.size() == 16) {
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 4; ++row) {
-                m[column][row] = node.matrix[static_cast<std::size_t>(4 * column + row)];
-            }
+        for (std::size_t i = 0; i < node.matrix.size(); ++i) {
+            m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
         }
         return m;
     }
@@ -103,8 +102,8 @@ std::vector<PlacedNode> placeNodes(const GltfModel& model) {
     };
     std::vector<Pending> stack;
     const std::vector<int> roots = findRoots(model);
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-        stack.push_back({*root, base::Mat4d(1.0)});
+    for (const int root : std::views::reverse(roots)) {
+        stack.push_back({root, base::Mat4d(1.0)});
     }
     std::vector<PlacedNode> placed;
     while (!stack.empty()) {
@@ -113,8 +112,8 @@ std::vector<PlacedNode> placeNodes(const GltfModel& model) {
         const base::Mat4d world = next.worldFromParent * localTransform(model, next.node);
         placed.push_back({next.node, placeOf(model, next.node), world});
         const std::vector<int>& children = model.data.nodes[static_cast<std::size_t>(next.node)].children;
-        for (auto child = children.rbegin(); child != children.rend(); ++child) {
-            stack.push_back({*child, world});
+        for (const int child : std::views::reverse(children)) {
+            stack.push_back({child, world});
         }
     }
     return placed;

@@ -98,8 +98,9 @@ void drawConvergence(const solve::Statistics& statistics, double target, float s
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(axes.lower, axes.upper, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.55f), 3.0f * scale);
     const float small = 0.85f * ImGui::GetFontSize();
-    for (double decade = axes.lowestDecade; decade <= axes.highestDecade + 0.5; decade += 1.0) {
-        const double value = std::pow(10.0, decade);
+    const auto decades = static_cast<int>(std::lround(axes.highestDecade - axes.lowestDecade));
+    for (int i = 0; i <= decades; ++i) {
+        const double value = std::pow(10.0, axes.lowestDecade + i);
         const float y = axes.y(value);
         list.AddLine(ImVec2(axes.lower.x, y), ImVec2(axes.upper.x, y), ImGui::GetColorU32(ImGuiCol_Separator),
                      1.0f);
@@ -111,7 +112,9 @@ void drawConvergence(const solve::Statistics& statistics, double target, float s
     }
     const float targetY = axes.y(target);
     const float dash = 4.0f * scale;
-    for (float x = axes.lower.x; x < axes.upper.x; x += 2.0f * dash) {
+    const auto dashes = static_cast<int>(std::ceil((axes.upper.x - axes.lower.x) / (2.0f * dash)));
+    for (int i = 0; i < dashes; ++i) {
+        const float x = axes.lower.x + 2.0f * dash * static_cast<float>(i);
         list.AddLine(ImVec2(x, targetY), ImVec2(std::min(x + dash, axes.upper.x), targetY),
                      ImGui::GetColorU32(ImGuiCol_Text, 0.7f), 1.0f);
     }
