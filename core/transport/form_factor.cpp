@@ -214,14 +214,7 @@ LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLane
         sf += local[i].x * values[i];
         tf += local[i].y * values[i];
     }
-    base::Vec2d slope = base::Vec2d(tt * sf - st * tf, ss * tf - st * sf) / (ss * tt - st * st);
-    double least = 0.0;
-    for (std::size_t i = kCubaturePoints; i < local.size(); ++i) {
-        least = std::min(least, glm::dot(slope, local[i]));
-    }
-    if (-least > mean) {
-        slope *= mean / -least;
-    }
+    const base::Vec2d slope = base::Vec2d(tt * sf - st * tf, ss * tf - st * sf) / (ss * tt - st * st);
     for (std::size_t i = 0; i < local.size(); ++i) {
         fit.deviation = std::max(fit.deviation, std::abs(values[i] - mean - glm::dot(slope, local[i])));
     }

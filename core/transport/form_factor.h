@@ -21,7 +21,8 @@ struct PairFactor {
 /// Linear fit of values at the eight points of an element.
 struct LinearFit {
     double mean = 0.0;
-    base::Vec2d gradient{};  ///< relative to the mean; limited so that the function is nowhere negative
+    /// Relative to the mean. The function may be negative in places: only sums over all links are not.
+    base::Vec2d gradient{};
     double deviation = 0.0;  ///< largest, absolute
     double largest = 0.0;    ///< value
 };
