@@ -28,19 +28,23 @@ class UncertaintyCode {
     }
 };
 
-/// Relative gradient of a kernel over an element in one byte for each direction: steps of 3 / 127.
+/// Relative gradient of a kernel over an element in one byte for each direction. Where elements touch it
+/// reaches 8 over triangles; what is cut off does not cancel where all is uniform.
 struct GradientCode {
+    static constexpr float kLargest = 8.0f;
+
     std::int8_t s = 0;
     std::int8_t t = 0;
 
     static GradientCode encode(const base::Vec2& gradient) {
         const auto code = [](float g) {
-            return static_cast<std::int8_t>(std::lround(std::clamp(g, -3.0f, 3.0f) * (127.0f / 3.0f)));
+            return static_cast<std::int8_t>(
+                std::lround(std::clamp(g, -kLargest, kLargest) * (127.0f / kLargest)));
         };
         return {code(gradient.x), code(gradient.y)};
     }
     base::Vec2 decode() const {
-        return base::Vec2(static_cast<float>(s), static_cast<float>(t)) * (3.0f / 127.0f);
+        return base::Vec2(static_cast<float>(s), static_cast<float>(t)) * (kLargest / 127.0f);
     }
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include "core/base/photometry.h"
 #include "core/transport/exact_form_factor.h"
 #include "core/transport/form_factor_builds.h"
@@ -241,8 +243,14 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
     result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
     const bool touch = glm::distance(a.center, b.center) < a.radius + b.radius;
     if (touch && a.isPlanar && b.isPlanar && atA.largest > 0.0 && atB.largest > 0.0) {
-        result.coupling = polygonCoupling(std::span(a.corners.data(), a.cornerCount),
-                                          std::span(b.corners.data(), b.cornerCount));
+        // In one order, as rounding depends on it.
+        const bool isFirst =
+            std::lexicographical_compare(glm::value_ptr(a.center), glm::value_ptr(a.center) + 3,
+                                         glm::value_ptr(b.center), glm::value_ptr(b.center) + 3);
+        const ElementPoints& one = isFirst ? a : b;
+        const ElementPoints& other = isFirst ? b : a;
+        result.coupling = polygonCoupling(std::span(one.corners.data(), one.cornerCount),
+                                          std::span(other.corners.data(), other.cornerCount));
     }
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {

@@ -14,12 +14,6 @@ namespace {
 
 using base::Vec3d;
 
-/// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
-/// if they see each other partly, the second stage is repeated. They are few. (Furnace of check 7: row sums
-/// within 1.5 % instead of 3 %, for 3 % more rays.)
-constexpr float kNear = 1.5f;
-constexpr unsigned kNearRounds = 16;
-
 /// Uniform numbers of 16 bits each, four from one mix: strata are far coarser than that.
 struct Jitter {
     double x;
@@ -155,7 +149,7 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         Stage second = castPairs(rays, onA, onB, 8, base::mix(key));
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
-        if (glm::distance(shapeA.center, shapeB.center) < kNear * (shapeA.radius + shapeB.radius)) {
+        if (glm::distance(shapeA.center, shapeB.center) < kNearPair * (shapeA.radius + shapeB.radius)) {
             for (unsigned round = 1; round < kNearRounds; ++round) {
                 second.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
             }
