@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/photometry.h"
 #include "core/transport/exact_form_factor.h"
@@ -241,8 +242,13 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
     result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
     const bool touch = glm::distance(a.center, b.center) < a.radius + b.radius;
     if (touch && a.isPlanar && b.isPlanar && atA.largest > 0.0 && atB.largest > 0.0) {
-        result.coupling = polygonCoupling(std::span(a.corners.data(), a.cornerCount),
-                                          std::span(b.corners.data(), b.cornerCount));
+        // In one order, whichever end comes first: the same bits both ways.
+        const bool inOrder =
+            std::tie(a.center.x, a.center.y, a.center.z) <= std::tie(b.center.x, b.center.y, b.center.z);
+        const ElementPoints& first = inOrder ? a : b;
+        const ElementPoints& second = inOrder ? b : a;
+        result.coupling = polygonCoupling(std::span(first.corners.data(), first.cornerCount),
+                                          std::span(second.corners.data(), second.cornerCount));
     }
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {
