@@ -241,7 +241,8 @@ TEST(VisibilitySampling, isTheSameBothWaysAndInEveryRun) {
         }
         EXPECT_GE(ab.mean, 0.0f);
         EXPECT_LE(ab.mean, 1.0f);
-        EXPECT_LE(ab.rays, transport::kFirstRays + transport::kSecondRays);
+        // Pairs that nearly touch repeat the second stage up to 16 times.
+        EXPECT_LE(ab.rays, transport::kFirstRays + 16 * transport::kSecondRays);
         EXPECT_TRUE(ab.isMixed || ab.mean == 0.0f || ab.mean == 1.0f);
         mixed += ab.isMixed ? 1 : 0;
     }
