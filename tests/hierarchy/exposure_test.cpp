@@ -93,7 +93,7 @@ TEST(Exposure, bitsNameTheCellsOfTheRegion) {
             const base::Vec2d st((cell % 4 + 0.5) / 4.0, (cell / 4 + 0.5) / 4.0);
             const Vec3d p = surface.evaluate(0, surface::mapToRegion(region, st).uv).position;
             const bool isUnder = std::abs(p.x - 2.0) < half && std::abs(p.z - 2.0) < half;
-            EXPECT_EQ((built.tree.shape(leaf).exposedCells >> cell & 1u) == 0, isUnder);
+            EXPECT_EQ((built.tree.shape(leaf).exposedCells & (1u << cell)) == 0, isUnder);
             hidden += isUnder ? 1 : 0;
         }
     }
