@@ -34,8 +34,8 @@ constexpr int kFinalSweeps = 100;
 constexpr int kSweepsAfterStop = 2;
 constexpr double kFinalResidual = 1e-6;
 constexpr double kPublishInterval = 0.1;  ///< seconds
-/// The first picture waits for its second sweep or so: a millisecond more, and interreflection is there.
-constexpr double kFirstResidual = 0.1;
+/// The first picture waits for its third sweep or so: a millisecond more, and interreflection is there.
+constexpr double kFirstResidual = 0.04;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
