@@ -78,7 +78,7 @@ std::vector<Vec3d> pointsOf(const Hierarchy& h, NodeId id, unsigned side) {
     for (unsigned i = 0; i < side * side; ++i) {
         const base::Vec2d st((i % side + .5) / side, (i / side + .5) / side);
         const unsigned cell = 4 * static_cast<unsigned>(4 * st.y) + static_cast<unsigned>(4 * st.x);
-        if ((h.shape(id).exposedCells >> cell & 1u) != 0) {
+        if ((h.shape(id).exposedCells & 1u << cell) != 0) {
             points.push_back(
                 h.surfaceOf(id).evaluate(name.patch, surface::mapToRegion(region, st).uv).position);
         }

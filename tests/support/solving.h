@@ -130,20 +130,11 @@ struct Deviations {
     double meanSize = 0.0;  ///< of absolute values, as are the next two
     double percentile99 = 0.0;
     double largest = 0.0;
-    std::vector<std::pair<double, double>> sizes;  ///< ascending, with their part of the area
-
-    /// Part of the area whose deviation is larger than `size`.
-    double shareAbove(double size) const {
-        double share = 0.0;
-        for (const auto& [deviation, part] : sizes) {
-            share += deviation > size ? part : 0.0;
-        }
-        return share;
-    }
 };
 
 inline Deviations deviations(const Problem& problem, const std::function<double(NodeId)>& deviation) {
     Deviations result;
+    std::vector<std::pair<double, double>> sizes;  // with their part of the area
     double area = 0.0;
     for (const NodeId id : leavesOf(problem.hierarchy)) {
         const double part = static_cast<double>(problem.hierarchy.shape(id).exposedArea());
@@ -151,15 +142,14 @@ inline Deviations deviations(const Problem& problem, const std::function<double(
         result.mean += part * d;
         result.meanSize += part * std::abs(d);
         area += part;
-        result.sizes.emplace_back(std::abs(d), part);
+        sizes.emplace_back(std::abs(d), part);
     }
     result.mean /= area;
     result.meanSize /= area;
-    std::sort(result.sizes.begin(), result.sizes.end());
+    std::sort(sizes.begin(), sizes.end());
     double passed = 0.0;
-    for (auto& [size, part] : result.sizes) {
-        part /= area;
-        if (passed < .99) {
+    for (const auto& [size, part] : sizes) {
+        if (passed < .99 * area) {
             result.percentile99 = size;
         }
         passed += part;
