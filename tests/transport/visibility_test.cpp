@@ -54,7 +54,7 @@ Truth findTruth(const Built& built, NodeId a, NodeId b, int count) {
                 const surface::RegionPoint where = surface::mapToRegion(regions[end], st);
                 p[end] = built.tree.surfaceOf(ids[end]).evaluate(name.patch, where.uv);
                 p[end].normal = name.back ? -p[end].normal : p[end].normal;
-                weight *= (built.tree.shape(ids[end]).exposedCells >> cell & 1u) != 0
+                weight *= (static_cast<unsigned>(built.tree.shape(ids[end]).exposedCells) >> cell & 1u) != 0
                               ? p[end].jacobian * where.jacobian
                               : 0.0;
             }
