@@ -152,8 +152,9 @@ class Run {
 
     void publish(bool isFinished) {
         problem_.statistics.times.total = seconds();
-        if (!callbacks_.publish ||
-            (!isFinished && sequence_ > 0 && secondsSince(published_) < kPublishInterval)) {
+        const bool isTooEarly = sequence_ > 0 ? secondsSince(published_) < kPublishInterval
+                                              : problem_.statistics.residual > kFirstResidual;
+        if (!callbacks_.publish || (!isFinished && isTooEarly)) {
             return;
         }
         published_ = Clock::now();
