@@ -98,7 +98,7 @@ class Hierarchy {
     const Light& light(NodeId id) const { return light_[index(id)]; }
     Light& light(NodeId id) { return light_[index(id)]; }
 
-    /// Nodes at the top of the elements (one for each patch and reached side), in depth-first order of the
+    /// Nodes at the top of the elements (one for each patch and reached side), in breadth-first order of the
     /// clusters.
     std::span<const NodeId> patches() const { return patches_; }
     /// Light sources without area, and the sky.
