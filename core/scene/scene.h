@@ -42,6 +42,10 @@ struct Light {
 
 /// Intensity in cd that a point or spot light sends into unit direction `d`, glTF's smooth cone included.
 Rgb intensityToward(const Light& light, const Vec3d& d);
+/// Whether a point or spot light reaches a point at this squared distance in m2.
+inline bool reaches(const Light& light, double squaredDistance) {
+    return light.range <= 0.0 || squaredDistance <= light.range * light.range;
+}
 /// Flux in lm over all directions; zero for directional lights, whose flux depends on what they meet.
 Rgb fluxOf(const Light& light);
 

@@ -170,7 +170,7 @@ class PointGather {
         const Vec3d d = light.position - x_;
         const double r2 = std::max(glm::dot(d, d), 1e-12);
         const double cosine = glm::dot(n_, d) / std::sqrt(r2);
-        if (cosine > 0.0 &&
+        if (cosine > 0.0 && scene::reaches(light, r2) &&
             !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
             sum_ += cosine / r2 * Vec3d(scene::intensityToward(light, -glm::normalize(d)));
         }

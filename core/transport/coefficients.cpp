@@ -13,6 +13,18 @@ namespace fluxwalk::transport {
 
 namespace {
 
+// Kernel in 1/m2 at the edge of a light's range, where that may lie within the element though none of its
+// points is reached.
+double reachedBetweenPoints(const ElementPoints& e, const hierarchy::Hierarchy& h, NodeId source) {
+    if (h.kind(source) != hierarchy::NodeKind::light) {
+        return 0.0;
+    }
+    const scene::Light& light = h.scene().lights[h.lightIndex(source)];
+    const bool isNear = light.kind != scene::LightKind::directional && light.range > 0.0 &&
+                        glm::distance(e.center, light.position) - e.radius < light.range;
+    return isNear ? 1.0 / (light.range * light.range) : 0.0;
+}
+
 // Mean and relative deviation over an element of what a light source without area, or the sky, sends to it.
 void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, NodeId source,
                       Coefficient& out) {
@@ -32,7 +44,7 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
             } else {
                 const Vec3d d = light.position - x;
                 const double r2 = std::max(glm::dot(d, d), 1e-12);
-                f = std::max(0.0, glm::dot(n, d)) / (r2 * std::sqrt(r2));
+                f = scene::reaches(light, r2) ? std::max(0.0, glm::dot(n, d)) / (r2 * std::sqrt(r2)) : 0.0;
                 if (light.kind == scene::LightKind::spot) {
                     const float full = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
                     const base::Rgb there = scene::intensityToward(light, -glm::normalize(d));
@@ -49,9 +61,10 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
     if (mean > 0.0) {
         out.gradientA = base::Vec2(fit.gradient);
         out.spreadA = static_cast<float>(fit.deviation / mean);
-    } else if (fit.largest > 0.0) {
+    } else if (const double highest = std::max(fit.largest, reachedBetweenPoints(e, h, source));
+               highest > 0.0) {
         // Only a corner is lit: a rough value that the oracle will not trust.
-        out.coupling = static_cast<float>(e.area * fit.largest / 64.0);
+        out.coupling = static_cast<float>(e.area * highest / 64.0);
         out.spreadA = 64.0f;
     }
     out.evaluations = base::kLanes;

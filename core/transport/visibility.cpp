@@ -197,7 +197,9 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
             } else {
                 const Vec3d d = light.position - p.position;
                 const double r2 = std::max(glm::dot(d, d), 1e-12);
-                weight *= std::max(0.0, glm::dot(p.normal, d)) / (r2 * std::sqrt(r2));
+                weight *= scene::reaches(light, r2)
+                              ? std::max(0.0, glm::dot(p.normal, d)) / (r2 * std::sqrt(r2))
+                              : 0.0;
                 ray = rays.segment(p.position, p.normal, light.position, Vec3d(0.0));
             }
         }
