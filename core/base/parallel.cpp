@@ -13,12 +13,16 @@
 #include <tbb/task_arena.h>
 #endif
 
+#include <tbb/global_control.h>
+
 namespace fluxwalk::base {
 
 namespace {
 
+constexpr unsigned kMaxThreads = 1024;
+
 unsigned resolveThreads(unsigned threads) {
-    return threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+    return std::min(kMaxThreads, threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency()));
 }
 
 }  // namespace
@@ -69,6 +73,9 @@ void Executor::forRange(std::size_t count, std::size_t grain,
 }
 
 void Executor::within(const std::function<void()>& work) const {
+    // ThreadSanitizer cannot see how TBB hands work over: what TBB's threads did to our memory would look
+    // like a race.
+    const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
     work();
 }
 
@@ -76,6 +83,9 @@ void Executor::within(const std::function<void()>& work) const {
 
 struct Executor::Impl {
     explicit Impl(unsigned threads) : arena(static_cast<int>(threads)) {}
+    // TBB fixes the number of its workers when its first arena is made; a later, larger arena would get no
+    // more.
+    tbb::global_control ceiling{tbb::global_control::max_allowed_parallelism, kMaxThreads};
     tbb::task_arena arena;
 };
 

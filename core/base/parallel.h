@@ -12,7 +12,7 @@ namespace fluxwalk::base {
 /// disjoint outputs.
 class Executor {
   public:
-    /// `threads` 0 means all hardware threads.
+    /// `threads` 0 means all hardware threads; at most 1,024 are made.
     explicit Executor(unsigned threads = 0);
     ~Executor();
     Executor(const Executor&) = delete;
@@ -26,7 +26,7 @@ class Executor {
                   const std::function<void(std::size_t, std::size_t)>& body) const;
 
     /// Runs `work` where nested parallelism of libraries (Embree builds) is held to the same number of
-    /// threads.
+    /// threads (std::thread backend: to the calling thread).
     void within(const std::function<void()>& work) const;
 
   private:

@@ -1,7 +1,9 @@
 #include "core/base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -38,6 +40,25 @@ TEST_P(ParallelTest, RangesStartAtMultiplesOfTheGrain) {
         ++ranges;
     });
     EXPECT_EQ(ranges, 4);
+}
+
+TEST(Parallel, aLargeTeamAfterASmallOneIsReallyLarge) {
+    constexpr unsigned kTeam = 8;
+    const Executor alone(1);
+    alone.forRange(2, 1, [](std::size_t, std::size_t) {});
+    const Executor team(kTeam);
+    std::atomic<unsigned> present{0};
+    std::atomic<unsigned> met{0};
+    // Each body waits for the other seven: with fewer threads than bodies they never meet.
+    team.forRange(kTeam, 1, [&](std::size_t, std::size_t) {
+        ++present;
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (present < kTeam && std::chrono::steady_clock::now() < deadline) {
+            std::this_thread::yield();
+        }
+        met += present == kTeam ? 1 : 0;
+    });
+    EXPECT_EQ(met, kTeam);
 }
 
 TEST_P(ParallelTest, RethrowsAnExceptionOfABody) {
