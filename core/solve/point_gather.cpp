@@ -7,6 +7,7 @@
 #include "core/base/photometry.h"
 #include "core/base/random.h"
 #include "core/transport/element_sampler.h"
+#include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
 
 namespace fluxwalk::solve {
@@ -91,23 +92,17 @@ class PointGather {
 
     // Part of the source's kernel at the point that comes from its exposed cells.
     double exposedShare(NodeId source) const {
-        const std::uint16_t cells = h_.shape(source).exposedCells;
-        if (cells == 0xffff) {
+        if (!transport::isPartlyHidden(h_.shape(source))) {
             return 1.0;
         }
-        const transport::ElementSampler sampler(h_, source);
-        double all = 0.0;
-        double exposed = 0.0;
-        for (unsigned cell = 0; cell < 16; ++cell) {
-            const transport::SurfaceSample p = sampler.inCell(cell);
-            const Vec3d d = p.position - x_;
-            const double r2 = std::max(glm::dot(d, d), 1e-300);
-            const double kernel = p.measure * std::max(0.0, glm::dot(n_, d)) *
-                                  std::max(0.0, -glm::dot(p.normal, d)) / (r2 * r2);
-            all += kernel;
-            exposed += (cells >> cell & 1u) != 0 ? kernel : 0.0;
-        }
-        return all > 0.0 ? exposed / all : static_cast<double>(h_.shape(source).exposed);
+        return transport::findExposedPart(h_, source,
+                                          [&](const transport::SurfaceSample& p) {
+                                              const Vec3d d = p.position - x_;
+                                              const double r2 = std::max(glm::dot(d, d), 1e-300);
+                                              return std::max(0.0, glm::dot(n_, d)) *
+                                                     std::max(0.0, -glm::dot(p.normal, d)) / (r2 * r2);
+                                          })
+            .share;
     }
 
     static unsigned chooseSide(float contribution) {

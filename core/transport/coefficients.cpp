@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
-#include "core/transport/element_sampler.h"
+#include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
 #include "core/transport/shaft.h"
 #include "core/transport/visibility.h"
@@ -70,31 +70,16 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
     out.evaluations = base::kLanes;
 }
 
-// Part of the exchange with `other` that the exposed cells of an element take, by the kernel at the cells'
-// middles: what is hidden under a solid is often out of sight of the other end anyway.
-double exposedShare(const hierarchy::Hierarchy& h, NodeId id, const ElementPoints& other) {
-    const std::uint16_t cells = h.shape(id).exposedCells;
-    if (cells == 0xffff) {
-        return 1.0;
+// Leaves of a pair's coefficient what element `id`'s exposed cells exchange with `other`.
+void limitToExposed(const hierarchy::Hierarchy& h, NodeId id, const ElementPoints& other, double& coupling,
+                    base::Vec2& gradient) {
+    if (!isPartlyHidden(h.shape(id))) {
+        return;
     }
-    const ElementSampler sampler(h, id);
-    double all = 0.0;
-    double exposed = 0.0;
-    for (unsigned cell = 0; cell < 16; ++cell) {
-        const SurfaceSample p = sampler.inCell(cell);
-        double kernel = 0.0;
-        for (int j = 0; j < 4; ++j) {
-            const Vec3d d = Vec3d(other.position.x[j], other.position.y[j], other.position.z[j]) - p.position;
-            const Vec3d n(other.normal.x[j], other.normal.y[j], other.normal.z[j]);
-            const double cosines = std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, -glm::dot(n, d));
-            const double r2 = glm::dot(d, d);
-            kernel += p.measure * other.weight[j] * cosines /
-                      std::max(r2 * (base::kPi * r2 + 0.25 * other.area), 1e-300);
-        }
-        all += kernel;
-        exposed += (cells >> cell & 1u) != 0 ? kernel : 0.0;
-    }
-    return all > 0.0 ? exposed / all : static_cast<double>(h.shape(id).exposed);
+    const ExposedPart part = findExposedPart(
+        h, id, [&](const SurfaceSample& p) { return computePointFactor(p.position, p.normal, other); });
+    coupling *= part.share;
+    gradient = base::Vec2(part.gradient);
 }
 
 }  // namespace
@@ -135,8 +120,14 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         out.spreadB = static_cast<float>(factor.spreadB);
         out.evaluations = static_cast<std::uint16_t>(factor.evaluations);
     }
-    out.coupling = static_cast<float>(coupling * exposedShare(hierarchy_, query.a, b) *
-                                      exposedShare(hierarchy_, query.b, a));
+    if (!constant) {
+        limitToExposed(hierarchy_, query.a, b, coupling, out.gradientA);
+        limitToExposed(hierarchy_, query.b, a, coupling, out.gradientB);
+    } else {
+        coupling *=
+            static_cast<double>(hierarchy_.shape(query.a).exposed * hierarchy_.shape(query.b).exposed);
+    }
+    out.coupling = static_cast<float>(coupling);
     if (out.coupling <= 0.0f || query.isOpen) {
         out.isOpen = query.isOpen;
         return out;
@@ -154,6 +145,8 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     }
     const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
     out.visibility = seen.mean;
+    out.gradientA += base::Vec2(seen.gradientA);
+    out.gradientB += base::Vec2(seen.gradientB);
     out.rays = seen.rays;
     out.isMixed = seen.isMixed;
     return out;
@@ -169,6 +162,7 @@ Coefficient CoefficientService::fromSource(const Query& query) const {
     }
     const VisibilitySample seen = sampleSourceVisibility(hierarchy_, rays_, query.a, query.b);
     out.visibility = seen.mean;
+    out.gradientA += base::Vec2(seen.gradientA);
     out.rays = seen.rays;
     const bool isSky = hierarchy_.kind(query.b) == hierarchy::NodeKind::sky;
     // Every view of the sky is a mixture; what counts is how it differs over the receiver.

@@ -31,21 +31,24 @@ ElementSampler::ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id,
 }
 
 SurfaceSample ElementSampler::at(const base::Vec2d& st) const {
-    if (!shape_.isPlanar) {
-        const surface::RegionPoint where = surface::mapToRegion(region_, st);
-        const surface::SurfacePoint p = surface_.evaluate(name_.patch, where.uv);
-        return {p.position, name_.back ? -p.normal : p.normal, p.jacobian * where.jacobian};
-    }
     // Corners of a back side run the other way round, which mirrors the region's second coordinate.
     const double s = st.x;
     const double t = name_.back ? 1.0 - st.y : st.y;
+    const bool isTriangle = shape_.cornerCount == 3;
+    const double root = isTriangle ? std::sqrt(s) : 0.0;
+    const base::Vec2d local = isTriangle ? base::Vec2d(1.0 - root, t * root) - base::Vec2d(1.0 / 3.0)
+                                         : base::Vec2d(2.0 * s - 1.0, 2.0 * t - 1.0);
+    if (!shape_.isPlanar) {
+        const surface::RegionPoint where = surface::mapToRegion(region_, st);
+        const surface::SurfacePoint p = surface_.evaluate(name_.patch, where.uv);
+        return {p.position, name_.back ? -p.normal : p.normal, p.jacobian * where.jacobian, local};
+    }
     const auto& c = corners_;
-    if (shape_.cornerCount == 3) {
-        const double root = std::sqrt(s);
-        return {(root * (1.0 - t)) * c[0] + (1.0 - root) * c[1] + (t * root) * c[2], axis_, 1.0};
+    if (isTriangle) {
+        return {(root * (1.0 - t)) * c[0] + (1.0 - root) * c[1] + (t * root) * c[2], axis_, 1.0, local};
     }
     return {(1.0 - t) * ((1.0 - s) * c[0] + s * c[1]) + t * ((1.0 - s) * c[3] + s * c[2]), axis_,
-            1.0 + s * alongS_ + t * alongT_};
+            1.0 + s * alongS_ + t * alongT_, local};
 }
 
 SurfaceSample ElementSampler::inCell(unsigned cell) const {

@@ -7,12 +7,13 @@ namespace fluxwalk::transport {
 using base::NodeId;
 using base::Vec3d;
 
-/// Point of an element's true surface with its normal, towards the side that takes part, and relative area
-/// measure.
+/// Point of an element's true surface with its normal, towards the side that takes part, relative area
+/// measure, and local coordinates (LocalFrame) in the order of that side's corners.
 struct SurfaceSample {
     Vec3d position{};
     Vec3d normal{};
     double measure = 1.0;
+    base::Vec2d local{0.0};
 };
 
 /// Points of one element; the hierarchy must stay as it is meanwhile.

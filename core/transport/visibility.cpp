@@ -6,6 +6,7 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/local_frame.h"
 #include "core/transport/element_sampler.h"
 
 namespace fluxwalk::transport {
@@ -37,6 +38,8 @@ struct Jitter {
 struct Stage {
     double weight = 0.0;
     double seen = 0.0;
+    std::array<base::Vec2d, 2> weightMoment{};
+    std::array<base::Vec2d, 2> seenMoment{};
     unsigned blockedCount = 0;
     unsigned count = 0;
 
@@ -46,11 +49,37 @@ struct Stage {
         blockedCount += isBlocked ? 1 : 0;
         ++count;
     }
+    void addPair(double w, bool isBlocked, const base::Vec2d& onA, const base::Vec2d& onB) {
+        add(w, isBlocked);
+        weightMoment[0] += w * onA;
+        weightMoment[1] += w * onB;
+        if (!isBlocked) {
+            seenMoment[0] += w * onA;
+            seenMoment[1] += w * onB;
+        }
+    }
     void add(const Stage& other) {
         weight += other.weight;
         seen += other.seen;
+        for (std::size_t end = 0; end < 2; ++end) {
+            weightMoment[end] += other.weightMoment[end];
+            seenMoment[end] += other.seenMoment[end];
+        }
         blockedCount += other.blockedCount;
         count += other.count;
+    }
+    /// Gradient over one end that the shadow adds: that of the seen kernel less that of the kernel, both
+    /// relative to their means and from the same rays, so that only the shadow's noise is left.
+    base::Vec2d shadowGradient(std::size_t end, const hierarchy::LocalFrame& frame) const {
+        if (seen <= 0.0) {
+            return base::Vec2d(0.0);
+        }
+        const base::Vec2d moment = seenMoment[end] / seen - weightMoment[end] / weight;
+        const auto xx = static_cast<double>(frame.xx);
+        const auto xy = static_cast<double>(frame.xy);
+        const auto yy = static_cast<double>(frame.yy);
+        return base::Vec2d(yy * moment.x - xy * moment.y, xx * moment.y - xy * moment.x) /
+               (xx * yy - xy * xy);
     }
     double ratio() const {
         return weight > 0.0 ? seen / weight : 1.0 - static_cast<double>(blockedCount) / count;
@@ -97,6 +126,8 @@ Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const Eleme
     const unsigned count = side * side;
     std::array<rays::Ray, kSecondRays> bundle;
     std::array<double, kSecondRays> weights{};
+    std::array<base::Vec2d, kSecondRays> localA;
+    std::array<base::Vec2d, kSecondRays> localB;
     std::array<std::uint8_t, kSecondRays> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
@@ -111,13 +142,15 @@ Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const Eleme
             continue;
         }
         weights[used] = p.measure * q.measure * cosines / (r2 * r2);
+        localA[used] = p.local;
+        localB[used] = q.local;
         bundle[used] = rays.segment(p.position, p.normal, q.position, q.normal);
         ++used;
     }
     rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
     Stage stage;
     for (unsigned i = 0; i < used; ++i) {
-        stage.add(weights[i], blocked[i] != 0);
+        stage.addPair(weights[i], blocked[i] != 0, localA[i], localB[i]);
     }
     return stage;
 }
@@ -136,7 +169,8 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
                                   NodeId b) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
-    if (keyA > keyB) {
+    const bool isSwapped = keyA > keyB;
+    if (isSwapped) {
         std::swap(a, b);
         std::swap(keyA, keyB);
     }
@@ -157,6 +191,11 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         const auto firstRays = sample.rays;
         sample = toSample(second);
         sample.isMixed = true;
+        sample.gradientA = second.shadowGradient(0, hierarchy::localFrame(shapeA.cornerCount));
+        sample.gradientB = second.shadowGradient(1, hierarchy::localFrame(shapeB.cornerCount));
+        if (isSwapped) {
+            std::swap(sample.gradientA, sample.gradientB);
+        }
         sample.rays = static_cast<std::uint16_t>(sample.rays + firstRays);
     }
     return sample;
@@ -171,6 +210,7 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
     std::array<rays::Ray, kSecondRays> bundle;
     std::array<double, kSecondRays> weights{};
     std::array<unsigned, kSecondRays> quarters{};
+    std::array<base::Vec2d, kSecondRays> locals;
     std::array<std::uint8_t, kSecondRays> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
@@ -205,6 +245,7 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
         }
         if (weight > 0.0) {
             weights[used] = weight;
+            locals[used] = p.local;
             quarters[used] = (i % side) / 4 + 2 * (i / side / 4);
             bundle[used++] = ray;
         }
@@ -213,10 +254,11 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
     Stage whole;
     std::array<Stage, 4> quarter;
     for (unsigned i = 0; i < used; ++i) {
-        whole.add(weights[i], blocked[i] != 0);
+        whole.addPair(weights[i], blocked[i] != 0, locals[i], base::Vec2d(0.0));
         quarter[quarters[i]].add(weights[i], blocked[i] != 0);
     }
     VisibilitySample sample = toSample(whole);
+    sample.gradientA = whole.shadowGradient(0, hierarchy::localFrame(hierarchy.shape(element).cornerCount));
     for (const Stage& part : quarter) {
         if (part.count > 0) {
             sample.deviation =

@@ -13,6 +13,10 @@ using base::NodeId;
 struct VisibilitySample {
     float mean = 1.0f;       ///< kernel-weighted
     float deviation = 0.0f;  ///< sky and lights: range over the quarters of the receiver
+    /// What the shadow adds to the kernel's gradients (PairFactor) over a and, where that is an element, over
+    /// b.
+    base::Vec2d gradientA{0.0};
+    base::Vec2d gradientB{0.0};
     std::uint16_t rays = 0;
     bool isMixed = false;  ///< some were blocked and some were not
 };

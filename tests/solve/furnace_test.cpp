@@ -72,9 +72,11 @@ TEST_F(Furnace, unscaled) {
 }
 
 TEST_F(Furnace, scaled) {
-    const test::Deviations half = solveWith(.5f, true);
-    EXPECT_LE(half.largest, .005);
-    EXPECT_LE(half.meanSize, .001);
+    for (const float rho : {.5f, .9f}) {
+        const test::Deviations radiosity = solveWith(rho, true);
+        EXPECT_LE(radiosity.largest, .005) << rho;
+        EXPECT_LE(radiosity.meanSize, .001) << rho;
+    }
     const std::vector<double> sums = test::transportedRowSums(*problem_);
     const test::Deviations rows =
         test::deviations(*problem_, [&](NodeId id) { return sums[base::index(id)] - 1.0; });
