@@ -170,12 +170,16 @@ class Refinement {
         return (preferA && canA) || !canB ? Verdict::splitA : Verdict::splitB;
     }
 
+    static bool isPartlyBlocked(const Link& link) {
+        return !link.isOpen() && link.visibility() > 0.0f && link.visibility() < 1.0f;
+    }
+
     // From what the link keeps alone, so that a new pair and a standing link are judged alike.
     Verdict judge(const Link& link) const {
         const float v = link.visibility();
         const NodeKind kindB = hierarchy_.kind(link.b);
         // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
-        const bool isMixed = !link.isOpen() && v > 0.0f && v < 1.0f && kindB != NodeKind::sky;
+        const bool isMixed = isPartlyBlocked(link) && kindB != NodeKind::sky;
         const unsigned rays =
             isMixed || kindB != NodeKind::element ? transport::kSecondRays : transport::kFirstRays;
         const float upper = link.isOpen() ? 1.0f : transport::visibilityUpperBound(v, rays);
@@ -313,11 +317,12 @@ class Refinement {
             const NodeId a = d.link.a;
             const NodeId b = d.link.b;
             const bool open = d.link.isOpen();
+            const bool edge = isPartlyBlocked(d.link);
             if (d.verdict == Verdict::splitSelf) {
                 const unsigned n = hierarchy_.childCount(a);
                 for (unsigned i = 0; i < n; ++i) {
                     for (unsigned j = i; j < n; ++j) {
-                        next.push_back(ordered(hierarchy_.child(a, i), hierarchy_.child(a, j), open));
+                        next.push_back(ordered(hierarchy_.child(a, i), hierarchy_.child(a, j), open, edge));
                     }
                 }
                 continue;
@@ -325,7 +330,7 @@ class Refinement {
             const NodeId from = d.verdict == Verdict::splitA ? a : b;
             const NodeId other = d.verdict == Verdict::splitA ? b : a;
             for (unsigned i = 0; i < hierarchy_.childCount(from); ++i) {
-                next.push_back(ordered(hierarchy_.child(from, i), other, open));
+                next.push_back(ordered(hierarchy_.child(from, i), other, open, edge));
             }
         }
         return next;
@@ -333,13 +338,13 @@ class Refinement {
 
     // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it
     // was reached.
-    Query ordered(NodeId a, NodeId b, bool open) const {
+    Query ordered(NodeId a, NodeId b, bool open, bool edge) const {
         const bool sourceA = hierarchy_.kind(a) == NodeKind::light || hierarchy_.kind(a) == NodeKind::sky;
         const bool sourceB = hierarchy_.kind(b) == NodeKind::light || hierarchy_.kind(b) == NodeKind::sky;
         if (sourceA != sourceB) {
-            return sourceA ? Query{b, a, open} : Query{a, b, open};
+            return sourceA ? Query{b, a, open, edge} : Query{a, b, open, edge};
         }
-        return hierarchy_.key(a) <= hierarchy_.key(b) ? Query{a, b, open} : Query{b, a, open};
+        return hierarchy_.key(a) <= hierarchy_.key(b) ? Query{a, b, open, edge} : Query{b, a, open, edge};
     }
 
     Problem& problem_;

@@ -143,7 +143,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         case ShaftContent::unknown:
             break;
     }
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, query.isEdge);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);

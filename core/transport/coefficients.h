@@ -11,11 +11,13 @@ namespace fluxwalk::transport {
 
 using base::NodeId;
 
-/// A pair whose coefficient is asked for. `isOpen`: a pair above it was found with an empty shaft.
+/// A pair whose coefficient is asked for. `isOpen`: a pair above it was found with an empty shaft. `isEdge`:
+/// the pair above it was partly blocked, so that this one may well be too.
 struct Query {
     NodeId a{};
     NodeId b{};
     bool isOpen = false;
+    bool isEdge = false;
 };
 
 /// What a pair exchanges. `b` may be a light source.

@@ -166,7 +166,7 @@ VisibilitySample toSample(const Stage& stage) {
 }  // namespace
 
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b) {
+                                  NodeId b, bool isEdge) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
     const bool isSwapped = keyA > keyB;
@@ -177,26 +177,28 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const std::uint64_t key = base::combine(keyA, keyB);
     const ElementSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
     const ElementSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
-    const Stage first = castPairs(rays, onA, onB, 4, key);
-    VisibilitySample sample = toSample(first);
+    Stage stage = castPairs(rays, onA, onB, isEdge ? 8 : 4, key);
+    VisibilitySample sample = toSample(stage);
     if (sample.isMixed) {
-        Stage second = castPairs(rays, onA, onB, 8, base::mix(key));
+        const unsigned firstRays = stage.count;
+        if (!isEdge) {
+            stage = castPairs(rays, onA, onB, 8, base::mix(key));
+        }
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
         if (glm::distance(shapeA.center, shapeB.center) < kNearPair * (shapeA.radius + shapeB.radius)) {
             for (unsigned round = 1; round < kNearRounds; ++round) {
-                second.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
+                stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
             }
         }
-        const auto firstRays = sample.rays;
-        sample = toSample(second);
+        sample = toSample(stage);
         sample.isMixed = true;
-        sample.gradientA = second.shadowGradient(0, hierarchy::localFrame(shapeA.cornerCount));
-        sample.gradientB = second.shadowGradient(1, hierarchy::localFrame(shapeB.cornerCount));
+        sample.rays = static_cast<std::uint16_t>(stage.count + (isEdge ? 0 : firstRays));
+        sample.gradientA = stage.shadowGradient(0, hierarchy::localFrame(shapeA.cornerCount));
+        sample.gradientB = stage.shadowGradient(1, hierarchy::localFrame(shapeB.cornerCount));
         if (isSwapped) {
             std::swap(sample.gradientA, sample.gradientB);
         }
-        sample.rays = static_cast<std::uint16_t>(sample.rays + firstRays);
     }
     return sample;
 }
