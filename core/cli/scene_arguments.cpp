@@ -12,6 +12,7 @@
 #include "core/cli/suggest.h"
 #include "core/cli/values.h"
 #include "core/io/gltf_read.h"
+#include "core/io/lit_gltf.h"
 #include "core/scene/builders.h"
 
 namespace fluxwalk::cli {
@@ -63,9 +64,24 @@ bool namesFile(const std::string& scene) {
            std::filesystem::exists(scene, ignored);
 }
 
+namespace {
+
+// A lit file is read as one, so that its two meshes for the two sides of a surface are one surface again.
+scene::Scene readSceneFile(const std::filesystem::path& file) {
+    if (!io::isLitGltf(file)) {
+        return io::readGltf(file);
+    }
+    scene::Scene scene = io::readLitGltf(file).scene;
+    scene.warnings.push_back(
+        "a lit file: its displayed triangles are the scene now; the original solves better");
+    return scene;
+}
+
+}  // namespace
+
 scene::Scene loadScene(const SceneArguments& arguments) {
     scene::Scene scene =
-        namesFile(arguments.scene) ? io::readGltf(arguments.scene) : buildNamedScene(arguments.scene);
+        namesFile(arguments.scene) ? readSceneFile(arguments.scene) : buildNamedScene(arguments.scene);
     if (arguments.sky >= 0.0) {
         scene.sky = scene::Rgb(static_cast<float>(arguments.sky));
     } else {

@@ -88,7 +88,12 @@ TEST_F(Commands, LitMeshIsASceneAgain) {
     ASSERT_EQ(run({"solve", "squares-parallel", "-o", path("lit.glb"), "--error", "20%", "--quiet"}).code, 0);
     const Result info = run({"info", path("lit.glb"), "--json"});
     EXPECT_EQ(info.code, 0) << info.err;
-    EXPECT_GT(nlohmann::json::parse(info.out).at("objects"), 0);
+    const nlohmann::json lit = nlohmann::json::parse(info.out);
+    const nlohmann::json original = nlohmann::json::parse(run({"info", "squares-parallel", "--json"}).out);
+    EXPECT_EQ(lit.at("objects"), original.at("objects"));
+    ASSERT_EQ(lit.at("emitters").size(), original.at("emitters").size());
+    EXPECT_NEAR(lit.at("emitters").at(0).at("lumens"), original.at("emitters").at(0).at("lumens"), 1e-3);
+    EXPECT_NE(lit.at("warnings").dump().find("a lit file"), std::string::npos);
 }
 
 TEST_F(Commands, JsonGoesToStandardOutputAlone) {
