@@ -23,16 +23,6 @@ std::uint32_t signedSize(const Cell& cell) {
 
 using Corners = std::array<GridPoint, 4>;
 
-Corners cornersOf(const Cell& cell) {
-    const std::uint32_t size = signedSize(cell);
-    const auto& steps = cell.cornerCount == 4 ? kQuadSteps : kTriangleSteps;
-    Corners corners;
-    for (unsigned i = 0; i < 4; ++i) {
-        corners[i] = stepFrom(cell.origin, steps[i], size);
-    }
-    return corners;
-}
-
 // Moves a cell's place to that of its quarter, which is `half` wide.
 void descend(Cell& cell, unsigned child, std::uint32_t half) {
     const std::uint32_t size = cell.inverted ? 0u - half : half;
@@ -142,6 +132,16 @@ class Balancer {
 };
 
 }  // namespace
+
+std::array<GridPoint, 4> cornersOf(const Cell& cell) {
+    const std::uint32_t size = signedSize(cell);
+    const auto& steps = cell.cornerCount == 4 ? kQuadSteps : kTriangleSteps;
+    Corners corners;
+    for (unsigned i = 0; i < 4; ++i) {
+        corners[i] = stepFrom(cell.origin, steps[i], size);
+    }
+    return corners;
+}
 
 Cell makeCell(const PatchTopology& topology, std::uint32_t patch, surface::Path path, std::uint32_t source) {
     Cell cell;

@@ -23,6 +23,9 @@ struct Cell {
     bool inverted = false;  ///< triangle whose corners lie towards smaller coordinates
 };
 
+/// Corners in the patch's grid; the fourth of a triangle means nothing.
+std::array<GridPoint, 4> cornersOf(const Cell& cell);
+
 /// Cell of the leaf that `path` names; its points are not numbered yet.
 Cell makeCell(const PatchTopology& topology, std::uint32_t patch, surface::Path path, std::uint32_t source);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/display/curvature.h"
 #include "core/display/triangulate.h"
 
 namespace fluxwalk::display {
@@ -68,8 +69,17 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     }
     PointTable points(leaves.size() + leaves.size() / 4);
     balance(topology, points, cells);
-    const MeshVertices vertices = collectVertices(topology, points, cells, options.creaseAngle);
-    const MeshValues values = reconstructValues(cells, vertices, leaves);
+    MeshVertices vertices = collectVertices(topology, points, cells, options.creaseAngle);
+    MeshValues values = reconstructValues(cells, vertices, leaves);
+    std::vector<Cell> fineCells = refineByCurvature(topology, cells, options.curvatureAngle);
+    if (!fineCells.empty()) {
+        PointTable finePoints(2 * fineCells.size());
+        balance(topology, finePoints, fineCells);
+        MeshVertices fine = collectVertices(topology, finePoints, fineCells, options.creaseAngle);
+        values = carryValues({cells, vertices, values}, fineCells, fine);
+        vertices = std::move(fine);
+        cells = std::move(fineCells);
+    }
     const std::array<bool, 2> texcoords{options.texcoords[0] && topology.hasTexcoords(0),
                                         options.texcoords[1] && topology.hasTexcoords(1)};
     std::vector<std::uint32_t> firstTriangle =

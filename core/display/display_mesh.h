@@ -17,6 +17,8 @@ namespace fluxwalk::display {
 struct MeshOptions {
     /// Vertex values are not averaged across edges whose faces' normals differ by more (radians).
     double creaseAngle = 0.5236;
+    /// Curved cells are refined until their normals lie within this angle of a common axis (radians).
+    double curvatureAngle = 0.0698;
     /// Which sets of texture coordinates to fill; those of a surface that has none stay empty.
     std::array<bool, 2> texcoords{true, true};
 };

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "core/base/photometry.h"
 #include "core/base/random.h"
 #include "core/display/interpolate.h"
 
@@ -28,12 +29,14 @@ DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
 scene::LitMeshes DisplayUpdate::refresh() {
     const StageTimer timer(problem_.statistics.times.display);
     const hierarchy::Hierarchy& h = problem_.hierarchy;
+    display::MeshOptions options;
+    options.curvatureAngle = problem_.options.displayAngle * base::kPi / 180.0;
     problem_.executor.forRange(patchesOf_.size(), 1, [&](std::size_t begin, std::size_t end) {
         std::vector<display::Leaf> leaves;
         std::vector<NodeId> stack;
         for (std::size_t o = begin; o < end; ++o) {
             leaves.clear();
-            std::uint64_t digest = 1;
+            std::uint64_t digest = base::mix(std::bit_cast<std::uint64_t>(problem_.options.displayAngle));
             for (const NodeId patch : patchesOf_[o]) {
                 stack.push_back(patch);
                 while (!stack.empty()) {
@@ -59,7 +62,7 @@ scene::LitMeshes DisplayUpdate::refresh() {
             }
             digests_[o] = digest;
             meshes_[o] = display::buildDisplayMeshes(*topologies_[o], static_cast<std::uint32_t>(o),
-                                                     problem_.scene->objects[o].material, leaves, {});
+                                                     problem_.scene->objects[o].material, leaves, options);
         }
     });
     scene::LitMeshes all;

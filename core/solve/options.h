@@ -28,6 +28,9 @@ struct Options {
     double minArea = 0.0;
     /// Scales the coefficients of closed scenes symmetrically until every row sums to 1, by 5 % at most.
     bool rowScaling = false;
+    /// Displayed triangles of curved surfaces are refined until normals within an element's part lie within
+    /// this angle of a common axis, in degrees. Costs no transport.
+    double displayAngle = 4.0;
     std::uint64_t seed = 1;
     /// Seconds after which the solver stops with what it has; 0 for none.
     double timeLimit = 0.0;

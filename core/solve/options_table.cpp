@@ -65,6 +65,16 @@ std::vector<OptionInfo> makeTable() {
                      .get = [](const Options& o) { return o.rowScaling ? 1.0 : 0.0; },
                      .set = [](Options& o, double value) { o.rowScaling = value != 0.0; }});
     table.push_back(
+        {.name = "display-angle",
+         .unit = "degrees",
+         .minimum = 0.25,
+         .maximum = 90.0,
+         .explanation =
+             "Curved surfaces are shown by triangles whose true normals lie within this angle of a "
+             "common axis: smaller makes silhouettes rounder, without solving anew.",
+         .get = [](const Options& o) { return o.displayAngle; },
+         .set = [](Options& o, double value) { o.displayAngle = value; }});
+    table.push_back(
         {.name = "seed",
          .kind = OptionKind::integer,
          .minimum = 0.0,

@@ -264,7 +264,13 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         statistics.threshold = firstThreshold(problem.options.oracle, state.ambient) * kTighten;
     }
     const auto isStopped = [&run] { return run.isStopped(); };
-    for (bool isDone = problem.hierarchy.patches().empty() || state.ambient <= 0.0; !isDone;) {
+    // Whether what was asked for holds already: then only the display changes.
+    const auto isReached = [&] {
+        return problem.options.threshold > 0.0 ? statistics.threshold <= problem.options.threshold
+                                               : statistics.estimatedError <= problem.options.error;
+    };
+    const bool isEmpty = problem.hierarchy.patches().empty() || state.ambient <= 0.0;
+    for (bool isDone = isEmpty || (!statistics.history.empty() && isReached()); !isDone;) {
         statistics.threshold = std::max(statistics.threshold / kTighten, problem.options.threshold);
         problem.rowScale.clear();
         run.report("refining");
@@ -275,11 +281,9 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         statistics.history.push_back({run.seconds(), statistics.threshold, statistics.residual,
                                       statistics.estimatedError, statistics.counters.links});
         run.publish(false);
-        const bool isUserThreshold = problem.options.threshold > 0.0;
-        isDone = run.isStopped() || (isUserThreshold ? statistics.threshold <= problem.options.threshold
-                                                     : statistics.estimatedError <= problem.options.error);
+        isDone = run.isStopped() || isReached();
         // Nothing left to split: the smallest elements bound the error.
-        isDone = isDone || (!changed && statistics.history.size() > 3 && !isUserThreshold &&
+        isDone = isDone || (!changed && statistics.history.size() > 3 && problem.options.threshold <= 0.0 &&
                             statistics.threshold < 1e-9 * state.ambient);
     }
     if (problem.options.rowScaling) {

@@ -44,7 +44,7 @@ class Solver {
     ~Solver();
 
     /// Runs until the requested error, a limit or a stop. May be called again with other options: it goes on
-    /// from where it is.
+    /// from where it is, or only shows the solution anew where they ask for no more than it has.
     Outcome solve(const Callbacks& callbacks);
 
     void setOptions(const Options& options);
