@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <glm/common.hpp>
+
 namespace fluxwalk::surface {
 
 namespace {
@@ -11,18 +13,20 @@ namespace {
 constexpr unsigned kFewestCells = 3;
 constexpr unsigned kMostCells = 24;
 constexpr unsigned kRounds = 12;
+/// Places of the grid that are tried for each size of its cubes.
+constexpr unsigned kShifts = 8;
 
 class Grid {
   public:
-    Grid(const SmoothUnion& object, unsigned cells) : object_(object) {
+    Grid(const SmoothUnion& object, unsigned cells, const Vec3d& shift) : object_(object) {
         const Box box = object.bounds();
         const Vec3d size = box.size();
         step_ = std::max({size.x, size.y, size.z}) / cells;
         for (int i = 0; i < 3; ++i) {
-            // One cube more on each side, so that the outermost nodes lie outside.
+            // One cube more on each side and one for the shift, so that the outermost nodes lie outside.
             const auto count = static_cast<unsigned>(std::ceil(size[i] / step_));
-            nodes_[static_cast<std::size_t>(i)] = count + 3;
-            origin_[i] = box.center()[i] - 0.5 * (count + 2) * step_;
+            nodes_[static_cast<std::size_t>(i)] = count + 4;
+            origin_[i] = box.center()[i] - (0.5 * count + 1.0 + shift[i]) * step_;
         }
         inside_.resize(static_cast<std::size_t>(nodes_[0]) * nodes_[1] * nodes_[2]);
         for (unsigned z = 0; z < nodes_[2]; ++z) {
@@ -156,13 +160,18 @@ bool evenOut(const SmoothUnion& object, Cage& cage) {
 
 std::optional<Cage> buildDualCage(const std::shared_ptr<const SmoothUnion>& object) {
     for (unsigned cells = kFewestCells; cells <= kMostCells; ++cells) {
-        Cage cage = Grid(*object, cells).dualFaces();
-        if (cage.faces.empty() || !isManifold(cage) || !evenOut(*object, cage)) {
-            continue;
-        }
-        const ProjectionCount count = ProjectedSurface(object, cage).projectionCount();
-        if (count.unsnapped == 0 && count.closest == 0) {
-            return cage;
+        for (unsigned k = 0; k < kShifts; ++k) {
+            // Well spread in the unit cube (the R3 sequence, M. Roberts 2018).
+            const Vec3d shift = glm::fract(static_cast<double>(k) *
+                                           Vec3d(0.8191725133961645, 0.6710436067037893, 0.5497004779019703));
+            Cage cage = Grid(*object, cells, shift).dualFaces();
+            if (cage.faces.empty() || !isManifold(cage) || !evenOut(*object, cage)) {
+                continue;
+            }
+            const ProjectionCount count = ProjectedSurface(object, cage).projectionCount();
+            if (count.unsnapped == 0 && count.closest == 0) {
+                return cage;
+            }
         }
     }
     return std::nullopt;

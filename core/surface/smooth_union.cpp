@@ -137,27 +137,49 @@ std::optional<ProjectedPoint> SmoothUnion::intersect(const Vec3d& origin, const 
 }
 
 std::optional<ProjectedPoint> SmoothUnion::closestPoint(const Vec3d& position) const {
-    // Newton on f = 0 together with: position - x is parallel to the gradient. Each step goes to the tangent
-    // plane's point below `position`.
-    constexpr int kMostSteps = 60;
+    // Alternates between the surface below x and the foot of `position` in the tangent plane at x.
+    constexpr int kMostSteps = 300;
     const double size = box_.diagonal();
+    double smallest = std::numeric_limits<double>::infinity();
+    double nearest = smallest;
     Vec3d x = position;
+    for (const Part& ball : balls_) {
+        smallest = std::min(smallest, ball.radius);
+        // Start on the nearest ball: far from all of them f is flat.
+        const Vec3d r = position - ball.center;
+        const double distance = glm::length(r);
+        if (distance - ball.radius < nearest) {
+            nearest = distance - ball.radius;
+            x = distance > 0.0 ? ball.center + (ball.radius / distance) * r
+                               : ball.center + Vec3d(ball.radius, 0.0, 0.0);
+        }
+    }
     for (int step = 0; step < kMostSteps; ++step) {
         const Vec3d g = gradient(x);
-        const double squared = glm::dot(g, g);
-        if (!(squared > 0.0)) {
+        const double slope = glm::length(g);
+        if (!(slope > 0.0)) {
             return std::nullopt;
         }
-        const Vec3d offset = position - x;
-        const Vec3d tangential = offset - (glm::dot(offset, g) / squared) * g;
-        Vec3d move = 0.5 * tangential - (value(x) / squared) * g;
-        const double length = glm::length(move);
-        if (length < 1e-13 * size) {
-            return ProjectedPoint{x, g / std::sqrt(squared), 0.0};
+        const Vec3d normal = g / slope;
+        // Newton on sqrt(1 - cbrt(sum)), which is linear in the distance from a single ball's middle; f bends
+        // too much for it.
+        const double sum = kThreshold - value(x);
+        const double root = std::cbrt(sum);
+        const double squared = 1.0 - root;
+        double climb = 0.1 * smallest;
+        if (sum > 0.0 && squared > 0.01) {
+            const double relative = std::sqrt(squared);
+            climb = (std::sqrt(kRelativeSquared) - relative) * 6.0 * relative * root * root / slope;
         }
-        // Far steps leave the reach of the balls.
-        const double most = 0.1 * size;
-        x += length > most ? (most / length) * move : move;
+        climb = std::clamp(climb, -0.5 * smallest, 0.5 * smallest);
+        const Vec3d offset = position - x;
+        const Vec3d along = offset - glm::dot(offset, normal) * normal;
+        // The farther away the position, the more the foot moves when x does.
+        const Vec3d move = smallest / (smallest + glm::length(offset)) * along + climb * normal;
+        if (glm::length(move) < 1e-13 * size) {
+            return ProjectedPoint{x, normal, 0.0};
+        }
+        x += move;
     }
     return std::nullopt;
 }
