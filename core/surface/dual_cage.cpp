@@ -15,6 +15,9 @@ constexpr unsigned kMostCells = 24;
 constexpr unsigned kRounds = 12;
 /// Places of the grid that are tried for each size of its cubes.
 constexpr unsigned kShifts = 8;
+/// How far from folding the map must stay for few quadrature points to see its measure.
+constexpr double kLeastCosine = 0.5;
+constexpr double kLeastGrowth = 0.25;
 
 class Grid {
   public:
@@ -169,7 +172,8 @@ std::optional<Cage> buildDualCage(const std::shared_ptr<const SmoothUnion>& obje
                 continue;
             }
             const ProjectionCount count = ProjectedSurface(object, cage).projectionCount();
-            if (count.unsnapped == 0 && count.closest == 0) {
+            if (count.unsnapped == 0 && count.closest == 0 && count.leastCosine >= kLeastCosine &&
+                count.leastGrowth >= kLeastGrowth) {
                 return cage;
             }
         }

@@ -110,8 +110,9 @@ RegionBounds ProjectedSurface::boundByHull(std::uint32_t patch, const Region& re
     bounds.box.upper = box.upper + capture_[patch];
     if (isSmooth_[patch] != 0) {
         const Box whole = object_->bounds();
-        bounds.box.lower = glm::max(bounds.box.lower, whole.lower);
-        bounds.box.upper = glm::min(bounds.box.upper, whole.upper);
+        const double rounding = 1e-12 * whole.diagonal();
+        bounds.box.lower = glm::max(bounds.box.lower, whole.lower - rounding);
+        bounds.box.upper = glm::min(bounds.box.upper, whole.upper + rounding);
     }
     bounds.normals.halfAngle = base::kPi;
     return bounds;

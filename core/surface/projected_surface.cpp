@@ -86,12 +86,19 @@ void ProjectedSurface::countProjections() {
         for (unsigned j = 0; j <= kLattice; ++j) {
             for (unsigned i = 0; i <= (isTriangle(patch) ? kLattice - j : kLattice); ++i) {
                 const Vec2d uv(static_cast<double>(i) / kLattice, static_cast<double>(j) / kLattice);
-                const Placed placed = place(patch, uv, chartAt(patch, uv));
+                const Chart chart = chartAt(patch, uv);
+                const Placed placed = place(patch, uv, chart);
                 ++count_.points;
                 count_.reversed += placed.outcome == Outcome::ray && placed.at.t < 0.0 ? 1 : 0;
                 count_.closest += placed.outcome == Outcome::closest ? 1 : 0;
                 count_.unsnapped += placed.outcome == Outcome::planar ? 1 : 0;
                 isSmooth = isSmooth && placed.outcome == Outcome::ray;
+                if (placed.outcome == Outcome::ray) {
+                    const double cosine = glm::dot(placed.at.normal, glm::normalize(chart.direction));
+                    const double growth = spread(chart, placed.at.t) / spread(chart, 0.0);
+                    count_.leastCosine = std::min(count_.leastCosine, cosine);
+                    count_.leastGrowth = std::min(count_.leastGrowth, growth);
+                }
             }
         }
         isSmooth_.push_back(isSmooth ? 1 : 0);
@@ -210,10 +217,8 @@ ProjectedSurface::Placed ProjectedSurface::place(std::uint32_t patch, const Vec2
     }
     Placed placed = project(chart.point, chart.direction, capture_[patch]);
     if (placed.outcome == Outcome::ray) {
-        const double flat = determinant(chart.pointSlope[0], chart.pointSlope[1], chart.direction);
-        const double t = placed.at.t;
-        const double grown = determinant(chart.pointSlope[0] + t * chart.directionSlope[0],
-                                         chart.pointSlope[1] + t * chart.directionSlope[1], chart.direction);
+        const double flat = spread(chart, 0.0);
+        const double grown = spread(chart, placed.at.t);
         if (!(flat > 0.0 && grown >= kLeastArea * flat)) {
             return {{chart.point, {}, 0.0}, Outcome::planar};
         }
@@ -221,20 +226,19 @@ ProjectedSurface::Placed ProjectedSurface::place(std::uint32_t patch, const Vec2
     return placed;
 }
 
-double ProjectedSurface::area(const Chart& chart, const Placed& placed) const {
-    // x_u = p_u + t d_u + t_u d lies in the tangent plane, which gives t_u; then
-    // x_u x x_v = n det(p_u + t d_u, p_v + t d_v, d) / (n . d).
-    const double t = placed.at.t;
-    return std::abs(determinant(chart.pointSlope[0] + t * chart.directionSlope[0],
-                                chart.pointSlope[1] + t * chart.directionSlope[1], chart.direction) /
-                    glm::dot(placed.at.normal, chart.direction));
+double ProjectedSurface::spread(const Chart& chart, double t) {
+    return determinant(chart.pointSlope[0] + t * chart.directionSlope[0],
+                       chart.pointSlope[1] + t * chart.directionSlope[1], chart.direction);
 }
 
 SurfacePoint ProjectedSurface::evaluate(std::uint32_t patch, const Vec2d& uv) const {
     const Chart chart = chartAt(patch, uv);
     const Placed placed = place(patch, uv, chart);
     if (placed.outcome == Outcome::ray) {
-        return {placed.at.position, placed.at.normal, area(chart, placed)};
+        // x_u = p_u + t d_u + t_u d lies in the tangent plane, which gives t_u; then
+        // x_u x x_v = n det(p_u + t d_u, p_v + t d_v, d) / (n . d).
+        return {placed.at.position, placed.at.normal,
+                std::abs(spread(chart, placed.at.t) / glm::dot(placed.at.normal, chart.direction))};
     }
     const Vec3d flat = glm::cross(chart.pointSlope[0], chart.pointSlope[1]);
     const double measure = glm::length(flat);

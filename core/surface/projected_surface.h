@@ -25,6 +25,11 @@ struct ProjectionCount {
     /// Left on the planar face, as nothing was in reach or the surface would have folded. The cage is too
     /// coarse there.
     std::size_t unsnapped = 0;
+    /// Least cosine between the object's normal and the direction of projection, and least growth of the
+    /// measure along it, relative to the planar face, over what rays brought onto the object. Near 0 the map
+    /// is about to fold there.
+    double leastCosine = 1.0;
+    double leastGrowth = 1.0;
 };
 
 /// Any object that can meet a ray and give a normal, in the faces of a coarse cage (object-based subdivision:
@@ -103,7 +108,8 @@ class ProjectedSurface final : public Surface {
     Vec2d onEdge(std::uint32_t patch, unsigned side, double s) const;
     Placed project(const Vec3d& point, const Vec3d& direction, double capture) const;
     Placed place(std::uint32_t patch, const Vec2d& uv, const Chart& chart) const;
-    double area(const Chart& chart, const Placed& placed) const;
+    /// det(p_u + t d_u, p_v + t d_v, d): the measure across d, on the planar face (t = 0) or off it.
+    static double spread(const Chart& chart, double t);
     Located locateIn(std::uint32_t patch, const Vec3d& position) const;
     std::optional<RegionBounds> boundByContinuation(std::uint32_t patch, const Region& region) const;
     RegionBounds boundByHull(std::uint32_t patch, const Region& region) const;

@@ -1,0 +1,524 @@
+#include "core/surface/projected_surface.h"
+
+#include <bit>
+
+#include <gtest/gtest.h>
+
+#include "core/base/parallel.h"
+#include "core/base/random.h"
+#include "tests/surface/projectables.h"
+
+namespace fluxwalk {
+
+namespace {
+
+using base::kPi;
+using base::NormalCone;
+using base::Vec2d;
+using base::Vec3d;
+using surface::Region;
+using surface::SurfacePoint;
+using test::forElements;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vec2d inRegion(const Region& region, base::RandomStream& random) {
+    return surface::mapToRegion(region, random.next2()).uv;
+}
+
+Region wholeOf(const surface::Surface& surface, std::uint32_t patch) {
+    return surface::wholePatch(surface.domain(patch));
+}
+
+bool sameBits(const Vec3d& a, const Vec3d& b) {
+    return std::bit_cast<std::array<std::uint64_t, 3>>(std::array{a.x, a.y, a.z}) ==
+           std::bit_cast<std::array<std::uint64_t, 3>>(std::array{b.x, b.y, b.z});
+}
+
+double areaAt(const surface::Surface& surface, unsigned level) {
+    double sum = 0.0;
+    forElements(surface, level, [&](auto patch, const Region& r) { sum += surface.area(patch, r); });
+    return sum;
+}
+
+/// The three surfaces that every general property is tested on.
+struct Shapes {
+    test::ProjectedSphere sphere;
+    test::ProjectedTorus torus;
+    test::ProjectedUnion blobs;
+    std::array<const surface::ProjectedSurface*, 3> all() const {
+        return {&sphere.surface, &torus.surface, &blobs.surface};
+    }
+};
+
+const Shapes& shapes() {
+    static const Shapes made;
+    return made;
+}
+
+}  // namespace
+
+// Issue: same vertices as the sphere's own parameterisation, to 1e-5 of its size.
+TEST(ProjectedSurface, sphereHasTheVerticesOfItsOwnParameterisation) {
+    const test::ProjectedSphere& generic = shapes().sphere;
+    const surface::Sphere& exact = generic.object->sphere();
+    std::vector<Vec3d> expected;
+    std::vector<Vec3d> found;
+    constexpr unsigned kLevel = 5;
+    const auto collect = [](const surface::Surface& surface, std::vector<Vec3d>& into) {
+        forElements(surface, kLevel, [&](auto patch, const Region& r) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                into.push_back(surface.evaluate(patch, r.corners[k]).position);
+            }
+        });
+    };
+    collect(exact, expected);
+    collect(generic.surface, found);
+    ASSERT_EQ(found.size(), expected.size());
+    double worst = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        worst = std::max(worst, glm::distance(found[i], expected[i]));
+    }
+    RecordProperty("worst", std::to_string(worst));
+    EXPECT_LT(worst, 1e-12);
+}
+
+// The paper's recursion taken literally: the middle of each edge goes along the mean of the end normals. The
+// first split is the same everywhere; on the sphere all are.
+TEST(ProjectedSurface, verticesAreThoseOfTheLiteralRecursion) {
+    struct Vertex {
+        Vec3d position;
+        Vec3d normal;
+    };
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        const surface::Projectable& object = surface->object();
+        const auto literal = [&](const Vertex& a, const Vertex& b) {
+            const Vec3d middle = .5 * (a.position + b.position);
+            const Vec3d d = .5 * (a.normal + b.normal);
+            const double reach = glm::distance(a.position, b.position) / glm::length(d);
+            const auto ahead = object.intersect(middle, d, -1e-12, reach);
+            const auto behind = object.intersect(middle, -d, -1e-12, reach);
+            EXPECT_TRUE(ahead || behind);
+            const bool forwards = ahead && (!behind || ahead->t <= behind->t);
+            return forwards ? Vertex{ahead->position, ahead->normal}
+                            : Vertex{behind->position, behind->normal};
+        };
+        const auto vertexAt = [&](std::uint32_t patch, const Vec2d& uv) {
+            const SurfacePoint p = surface->evaluate(patch, uv);
+            return Vertex{p.position, p.normal};
+        };
+        double first = 0.0;
+        double later = 0.0;
+        for (std::uint32_t patch = 0; patch < surface->patchCount(); ++patch) {
+            const Region whole = wholeOf(*surface, patch);
+            for (std::uint32_t k = 0; k < whole.cornerCount; ++k) {
+                const Vec2d a = whole.corners[k];
+                const Vec2d b = whole.corners[(k + 1) % whole.cornerCount];
+                const Vertex from = vertexAt(patch, a);
+                const Vertex to = vertexAt(patch, b);
+                const double edge = glm::distance(from.position, to.position);
+                const Vec2d middle = surface->splitPoint(patch, a, b);
+                const Vertex here = literal(from, to);
+                first =
+                    std::max(first, glm::distance(here.position, vertexAt(patch, middle).position) / edge);
+                const Vec2d quarter = surface->splitPoint(patch, a, middle);
+                later = std::max(
+                    later,
+                    glm::distance(literal(from, here).position, vertexAt(patch, quarter).position) / edge);
+            }
+        }
+        EXPECT_LT(first, 1e-12);
+        // As parts of the edge. They lie on the object either way, some way apart.
+        EXPECT_LT(later, surface == &shapes().sphere.surface ? 1e-12 : .1);
+        std::printf("literal recursion, second split: %.3g of the edge\n", later);
+    }
+}
+
+TEST(ProjectedSurface, verticesLieOnTheTorus) {
+    const test::ProjectedTorus& torus = shapes().torus;
+    double worst = 0.0;
+    forElements(torus.surface, 4, [&](auto patch, const Region& r) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const SurfacePoint p = torus.surface.evaluate(patch, r.corners[k]);
+            worst = std::max(worst, glm::distance(p.position, torus.object->nearestPoint(p.position)));
+            ASSERT_LT(glm::distance(p.normal, torus.object->normalAt(p.position)), 1e-9);
+        }
+    });
+    EXPECT_LT(worst, 1e-10 * torus.object->bounds().diagonal());
+    // Inside the ring the chords lie outside the solid: the direction is reversed there.
+    const surface::ProjectionCount& count = torus.surface.projectionCount();
+    EXPECT_EQ(count.unsnapped, 0u);
+    EXPECT_EQ(count.closest, 0u);
+    EXPECT_GT(count.reversed, count.points / 20);
+    EXPECT_LT(count.reversed, count.points / 2);
+    EXPECT_EQ(shapes().sphere.surface.projectionCount().reversed, 0u) << "convex";
+    EXPECT_GT(shapes().blobs.surface.projectionCount().reversed, 0u) << "the necks are hollow";
+}
+
+TEST(ProjectedSurface, areasAreTheTrueOnesAtEveryLevel) {
+    const double sphere = 4.0 * kPi * .49;
+    const double torus = 4.0 * kPi * kPi * test::ProjectedTorus::kMajor * test::ProjectedTorus::kMinor;
+    for (const unsigned level : {0u, 3u, 4u}) {
+        std::printf("level %u: sphere %.3g, torus %.3g\n", level,
+                    areaAt(shapes().sphere.surface, level) / sphere - 1.0,
+                    areaAt(shapes().torus.surface, level) / torus - 1.0);
+        EXPECT_NEAR(areaAt(shapes().sphere.surface, level) / sphere, 1.0, 1e-9) << level;
+        EXPECT_NEAR(areaAt(shapes().torus.surface, level) / torus, 1.0, 1e-9) << level;
+    }
+}
+
+TEST(ProjectedSurface, partsAddUpToTheirParent) {
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        double coarse = 0.0;
+        double fine = 0.0;
+        for (unsigned level = 0; level < 4; ++level) {
+            std::size_t element = 0;
+            forElements(*surface, level, [&](auto patch, const Region& r) {
+                if (element++ % (level + 1) != 0) {
+                    return;
+                }
+                double sum = 0.0;
+                for (const Region& part : surface::childRegions(*surface, patch, r)) {
+                    sum += surface->area(patch, part);
+                }
+                double& worst = level < 2 ? coarse : fine;
+                worst = std::max(worst, std::abs(sum / surface->area(patch, r) - 1.0));
+            });
+        }
+        std::printf("parts: %.3g, finer %.3g\n", coarse, fine);
+        EXPECT_LT(coarse, 1e-12);
+        // One Gauss rule against four. The union is only twice differentiable where the reach of a ball ends,
+        // which costs quadrature its order there.
+        EXPECT_LT(fine, surface == &shapes().blobs.surface ? 1e-5 : 1e-9);
+    }
+}
+
+TEST(ProjectedSurface, neighboursShareTheirEdgesBitwise) {
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        const surface::Cage& cage = surface->cage();
+        const auto corners = [&](std::uint32_t f) { return cage.faces[f][2] == cage.faces[f][3] ? 3u : 4u; };
+        std::size_t shared = 0;
+        for (std::uint32_t f = 0; f < cage.faces.size(); ++f) {
+            for (std::uint32_t g = f + 1; g < cage.faces.size(); ++g) {
+                for (std::uint32_t i = 0; i < corners(f); ++i) {
+                    for (std::uint32_t j = 0; j < corners(g); ++j) {
+                        const std::uint32_t iNext = (i + 1) % corners(f);
+                        const std::uint32_t jNext = (j + 1) % corners(g);
+                        if (cage.faces[f][i] != cage.faces[g][jNext] ||
+                            cage.faces[f][iNext] != cage.faces[g][j]) {
+                            continue;
+                        }
+                        ++shared;
+                        const Region a = wholeOf(*surface, f);
+                        const Region b = wholeOf(*surface, g);
+                        const auto descend = [&](const auto& self, Vec2d s0, Vec2d s1, Vec2d t0, Vec2d t1,
+                                                 unsigned level) -> void {
+                            const Vec2d s = surface->splitPoint(f, s0, s1);
+                            const Vec2d t = surface->splitPoint(g, t0, t1);
+                            ASSERT_EQ(s, surface->splitPoint(f, s1, s0));
+                            const SurfacePoint p = surface->evaluate(f, s);
+                            const SurfacePoint q = surface->evaluate(g, t);
+                            ASSERT_TRUE(sameBits(p.position, q.position)) << f << ' ' << g << ' ' << level;
+                            ASSERT_TRUE(sameBits(p.normal, q.normal)) << f << ' ' << g << ' ' << level;
+                            if (level < 6) {
+                                self(self, s0, s, t0, t, level + 1);
+                                self(self, s, s1, t, t1, level + 1);
+                            }
+                        };
+                        EXPECT_TRUE(sameBits(surface->evaluate(f, a.corners[i]).position,
+                                             surface->evaluate(g, b.corners[jNext]).position));
+                        descend(descend, a.corners[i], a.corners[iNext], b.corners[jNext], b.corners[j], 1);
+                    }
+                }
+            }
+        }
+        // Closed: every side of every face has its neighbour.
+        std::size_t sides = 0;
+        for (std::uint32_t f = 0; f < cage.faces.size(); ++f) {
+            sides += corners(f);
+        }
+        EXPECT_EQ(2 * shared, sides);
+    }
+}
+
+// The map inside a patch runs up to its edges without a jump, although those are computed on their own.
+TEST(ProjectedSurface, edgesContinueTheInside) {
+    base::RandomStream random(1);
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        for (std::uint32_t patch = 0; patch < surface->patchCount(); ++patch) {
+            const double s = random.next();
+            const SurfacePoint edge = surface->evaluate(patch, {s, 0.0});
+            const SurfacePoint inside = surface->evaluate(patch, {s, 1e-12});
+            EXPECT_LT(glm::distance(edge.position, inside.position), 1e-10);
+            EXPECT_NEAR(edge.jacobian / inside.jacobian, 1.0, 1e-8);
+        }
+    }
+}
+
+TEST(ProjectedSurface, jacobianIsThatOfTheMap) {
+    base::RandomStream random(2);
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        for (std::uint32_t patch = 0; patch < surface->patchCount(); ++patch) {
+            const Vec2d uv = .8 * inRegion(wholeOf(*surface, patch), random) + Vec2d(.05);
+            const SurfacePoint p = surface->evaluate(patch, uv);
+            constexpr double kStep = 1e-5;
+            const auto slope = [&](const Vec2d& step) {
+                return (surface->evaluate(patch, uv + step).position -
+                        surface->evaluate(patch, uv - step).position) /
+                       (2.0 * kStep);
+            };
+            const Vec3d across = glm::cross(slope({kStep, 0.0}), slope({0.0, kStep}));
+            EXPECT_NEAR(glm::length(across) / p.jacobian, 1.0, 1e-7);
+            EXPECT_NEAR(glm::dot(across, p.normal) / p.jacobian, 1.0, 1e-7) << "counter-clockwise";
+        }
+    }
+}
+
+TEST(ProjectedSurface, nothingFolds) {
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        for (unsigned level = 1; level < 5; ++level) {
+            forElements(*surface, level, [&](auto patch, const Region& r) {
+                std::array<SurfacePoint, 4> c;
+                for (std::size_t k = 0; k < r.cornerCount; ++k) {
+                    c[k] = surface->evaluate(patch, r.corners[k]);
+                }
+                const Vec3d across =
+                    r.cornerCount == 3
+                        ? glm::cross(c[1].position - c[0].position, c[2].position - c[0].position)
+                        : glm::cross(c[2].position - c[0].position, c[3].position - c[1].position);
+                ASSERT_GT(glm::dot(glm::normalize(across), c[0].normal), level < 3 ? .087 : .7)
+                    << patch << ' ' << level;
+            });
+        }
+    }
+}
+
+TEST(ProjectedSurface, boundsHoldAllPointsAndNormals) {
+    base::RandomStream random(3);
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        double coneAtFour = 0.0;
+        double widest = 0.0;
+        double boxAtFour = 0.0;
+        double count = 0.0;
+        for (unsigned level = 0; level < 5; ++level) {
+            forElements(*surface, level, [&](auto patch, const Region& region) {
+                const surface::RegionBounds bounds = surface->bounds(patch, region);
+                double extent = 0.0;
+                const Vec3d corner = surface->evaluate(patch, region.corners[0]).position;
+                for (std::size_t i = 0; i < 10; ++i) {
+                    const Vec2d uv =
+                        i < 4 ? region.corners[i % region.cornerCount] : inRegion(region, random);
+                    const SurfacePoint p = surface->evaluate(patch, uv);
+                    extent = std::max(extent, glm::distance(p.position, corner));
+                    for (int axis = 0; axis < 3; ++axis) {
+                        ASSERT_GE(p.position[axis], bounds.box.lower[axis]) << level;
+                        ASSERT_LE(p.position[axis], bounds.box.upper[axis]) << level;
+                    }
+                    ASSERT_LE(NormalCone::angleBetween(p.normal, bounds.normals.axis),
+                              bounds.normals.halfAngle)
+                        << level;
+                }
+                if (level == 4) {
+                    coneAtFour += bounds.normals.halfAngle;
+                    widest = std::max(widest, bounds.normals.halfAngle);
+                    boxAtFour += bounds.box.diagonal() / extent;
+                    count += 1.0;
+                }
+            });
+        }
+        // Tight enough to be of use.
+        std::printf("level 4: mean cone %.3g, widest %.3g, boxes %.3g times the diameter\n",
+                    coneAtFour / count, widest, boxAtFour / count);
+        EXPECT_LT(coneAtFour / count, .4);
+        EXPECT_LT(widest, 1.0);
+        EXPECT_LT(boxAtFour / count, 3.0);
+    }
+}
+
+TEST(ProjectedSurface, locateInvertsEvaluate) {
+    base::RandomStream random(4);
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        for (int i = 0; i < 2000; ++i) {
+            const auto patch = static_cast<std::uint32_t>(i) % surface->patchCount();
+            const Vec2d uv = inRegion(wholeOf(*surface, patch), random);
+            const SurfacePoint p = surface->evaluate(patch, uv);
+            ASSERT_LT(glm::distance(surface->locate(patch, p.position), uv), 1e-10) << patch;
+            // A little off the surface: the nearest point's parameter.
+            const Vec3d off = p.position + 1e-4 * p.normal;
+            ASSERT_LT(
+                glm::distance(surface->evaluate(patch, surface->locate(patch, off)).position, p.position),
+                1e-3);
+        }
+        // Outside of the patch: its border.
+        const Vec2d far = surface->locate(0, surface->bounds().upper + 10.0);
+        EXPECT_GE(std::min(far.x, far.y), 0.0);
+        EXPECT_LE(std::max(far.x, far.y), 1.0);
+    }
+}
+
+TEST(ProjectedSurface, raysAndParameterisationAgreeOnWhereTheSurfaceIs) {
+    base::RandomStream random(5);
+    for (const surface::ProjectedSurface* surface : shapes().all()) {
+        const surface::Box box = surface->bounds();
+        int hits = 0;
+        for (int i = 0; i < 5000; ++i) {
+            const auto point = [&] {
+                return box.lower + Vec3d(random.next(), random.next(), random.next()) * box.size();
+            };
+            const Vec3d from = point() + 2.0 * (point() - box.center());
+            const Vec3d direction = point() - from;
+            if (const auto hit = surface->intersect(from, direction, 0.0, kInfinity)) {
+                ++hits;
+                const Vec3d met = from + hit->t * direction;
+                const SurfacePoint p = surface->evaluate(hit->patch, hit->uv);
+                ASSERT_LT(glm::distance(p.position, met), 1e-8) << i;
+            }
+        }
+        EXPECT_GT(hits, 1000);
+    }
+}
+
+TEST(ProjectedSurface, onlyTheOutsideOfAConvexObjectSurelySeesNothingOfItself) {
+    EXPECT_FALSE(shapes().sphere.surface.canSeeItself(0, false));
+    EXPECT_TRUE(shapes().sphere.surface.canSeeItself(0, true));
+    EXPECT_TRUE(shapes().torus.surface.canSeeItself(0, false));
+}
+
+// Whatever the order and the number of threads, the same bits.
+TEST(ProjectedSurface, pointsDependOnNothingButTheirParameters) {
+    const surface::ProjectedSurface& surface = shapes().blobs.surface;
+    constexpr std::size_t kPoints = 20000;
+    const auto pointAt = [&](std::size_t i) {
+        base::RandomStream random(i);
+        const auto patch = static_cast<std::uint32_t>(i % surface.patchCount());
+        const Vec2d uv = random.next2();
+        const Vec2d split = surface.splitPoint(patch, uv, random.next2());
+        return surface.evaluate(patch, i % 2 == 0 ? uv : split).position;
+    };
+    std::vector<Vec3d> forwards(kPoints);
+    std::vector<Vec3d> parallel(kPoints);
+    for (std::size_t i = kPoints; i-- > 0;) {
+        forwards[i] = pointAt(i);
+    }
+    base::Executor(4).forRange(kPoints, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            parallel[i] = pointAt(i);
+        }
+    });
+    const test::ProjectedUnion again;
+    for (std::size_t i = 0; i < kPoints; ++i) {
+        ASSERT_TRUE(sameBits(forwards[i], parallel[i])) << i;
+    }
+    ASSERT_EQ(again.surface.patchCount(), surface.patchCount());
+    EXPECT_TRUE(
+        sameBits(again.surface.evaluate(7, {.3, .6}).position, surface.evaluate(7, {.3, .6}).position));
+}
+
+// Against random rays that know nothing of patches: by Crofton's formula, a random line through a sphere of
+// area S meets a surface of area A within it 2 A / S times on average; and chords measure the volume.
+TEST(ProjectedSurface, areaAndVolumeOfTheUnionMatchRandomLines) {
+    const test::ProjectedUnion& blobs = shapes().blobs;
+    double volume = 0.0;
+    forElements(blobs.surface, 2, [&](auto patch, const Region& r) {
+        // Midpoint rule over 4 x 4 parts.
+        for (int i = 0; i < 4; ++i) {
+            for (int j = 0; j < 4; ++j) {
+                const surface::RegionPoint at = surface::mapToRegion(r, {(i + .5) / 4, (j + .5) / 4});
+                const SurfacePoint p = blobs.surface.evaluate(patch, at.uv);
+                volume += at.jacobian * p.jacobian * glm::dot(p.position, p.normal) / (16.0 * 3.0);
+            }
+        }
+    });
+    const double area = areaAt(blobs.surface, 0);
+    const surface::Box box = blobs.object->bounds();
+    const double radius = .5 * box.diagonal();
+    base::RandomStream random(6);
+    const auto onSphere = [&] {
+        const double z = 2.0 * random.next() - 1.0;
+        const double phi = 2.0 * kPi * random.next();
+        const double r = std::sqrt(1.0 - z * z);
+        return box.center() + radius * Vec3d(r * std::cos(phi), r * std::sin(phi), z);
+    };
+    constexpr int kLines = 200000;
+    std::array<double, 2> sum{};
+    std::array<double, 2> squares{};
+    for (int i = 0; i < kLines; ++i) {
+        // Two uniform points of a sphere make a uniform line.
+        const Vec3d from = onSphere();
+        const Vec3d direction = glm::normalize(onSphere() - from);
+        double crossings = 0.0;
+        double length = 0.0;
+        double t = 0.0;
+        while (const auto hit = blobs.object->intersect(from, direction, t, kInfinity)) {
+            t = hit->t + 1e-12;
+            length += glm::dot(hit->normal, direction) > 0.0 ? hit->t : -hit->t;
+            crossings += 1.0;
+        }
+        // Uniform lines: A = crossings S / 2; V = mean chord S / 4.
+        const double shell = 4.0 * kPi * radius * radius;
+        const std::array<double, 2> estimate{crossings * shell / 2.0, length * shell / 4.0};
+        for (std::size_t k = 0; k < 2; ++k) {
+            sum[k] += estimate[k];
+            squares[k] += estimate[k] * estimate[k];
+        }
+    }
+    const std::array<double, 2> expected{area, volume};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double mean = sum[k] / kLines;
+        const double error = std::sqrt((squares[k] / kLines - mean * mean) / kLines);
+        std::printf("%s %.6f, by lines %.6f +- %.6f\n", k == 0 ? "area" : "volume", expected[k], mean, error);
+        EXPECT_NEAR(mean, expected[k], 4.0 * error);
+        EXPECT_LT(error, .01 * mean);
+    }
+}
+
+// A face that spans the gap between balls far apart: its inside finds no object, and says so.
+TEST(ProjectedSurface, whatCannotBeProjectedStaysPlanarAndIsCounted) {
+    const auto object = std::make_shared<surface::SmoothUnion>(
+        std::vector<surface::Ball>{{{0, 0, 0}, .3}, {{4, 0, 0}, .3}, {{0, 4, 0}, .3}});
+    surface::Cage cage;
+    cage.vertices = {{0, 0, .3}, {4, 0, .3}, {0, 4, .3}};
+    cage.faces = {{0, 1, 2, 2}};
+    const surface::ProjectedSurface surface(object, cage);
+    EXPECT_GT(surface.projectionCount().unsnapped, 20u);
+    EXPECT_LT(surface.projectionCount().unsnapped, surface.projectionCount().points);
+    const Vec2d middle(1.0 / 3.0);
+    const SurfacePoint p = surface.evaluate(0, middle);
+    EXPECT_LT(glm::distance(p.position, Vec3d(4.0 / 3.0, 4.0 / 3.0, .3)), 1e-12);
+    EXPECT_NEAR(p.jacobian, 16.0, 1e-12);
+    EXPECT_NEAR(p.normal.z, 1.0, 1e-12);
+    const surface::RegionBounds bounds = surface.bounds(0, wholeOf(surface, 0));
+    EXPECT_GE(bounds.box.upper.z, .3);
+    EXPECT_GE(bounds.normals.halfAngle, kPi);
+}
+
+// A cage whose face reaches past the silhouette: rays along its field miss, the nearest point is still within
+// reach.
+TEST(ProjectedSurface, nearestPointsStandInWhereRaysMiss) {
+    const auto object = std::make_shared<surface::SmoothUnion>(
+        std::vector<surface::Ball>{{{0, 0, 0}, 1.0}, {{3.0, 0, 0}, 1.0}});
+    surface::Cage cage;
+    const double c = std::cos(.35 * kPi);
+    const double s = std::sin(.35 * kPi);
+    cage.vertices = {{0, 0, 1}, {c, 0, s}, {3 - c, 0, s}, {3, 0, 1}, {c, -.5, .9}, {3 - c, -.5, .9}};
+    cage.faces = {{1, 4, 5, 2}};
+    const surface::ProjectedSurface surface(object, cage);
+    EXPECT_GT(surface.projectionCount().closest, 0u);
+    // Its area measure is that of the map.
+    const surface::Box box = object->bounds();
+    base::RandomStream random(7);
+    int tested = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Vec2d uv = Vec2d(.02) + .96 * random.next2();
+        const SurfacePoint p = surface.evaluate(0, uv);
+        ASSERT_TRUE(std::isfinite(p.jacobian));
+        if (std::abs(object->value(p.position)) < 1e-10) {
+            ++tested;
+            EXPECT_LT(glm::distance(p.position, object->closestPoint(p.position)->position), 1e-9);
+        }
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(p.position, box.upper + 1.0)));
+    }
+    EXPECT_GT(tested, 50);
+}
+
+}  // namespace fluxwalk
