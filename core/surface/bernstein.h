@@ -57,37 +57,35 @@ double valueAt(Bernstein<N> c, double s) {
     return c[0];
 }
 
-/// Crossing of a polynomial that has exactly one in [0, 1]: false position that halves the end it clings to
-/// (Illinois), closed by bisection. To about 1e-15.
+/// Crossing of a polynomial that has exactly one in [0, 1], to rounding: Newton's steps as long as they stay
+/// between the ends of what is left, else its middle.
 template <std::size_t N>
-double refineRoot(const Bernstein<N>& c) {
+double refineRoot(const Bernstein<N>& whole) {
+    const bool isPositive = whole.front() >= 0.0;
     double low = 0.0;
     double high = 1.0;
-    double atLow = c.front();
-    double atHigh = c.back();
-    for (int step = 0; step < 80 && high - low > 4e-16; ++step) {
-        double s = low - atLow * (high - low) / (atHigh - atLow);
-        if (step % 4 == 3 || !(s > low && s < high)) {
-            s = 0.5 * (low + high);
-        }
-        if (s <= low || s >= high) {
-            break;
-        }
-        const double value = valueAt(c, s);
-        if ((value >= 0.0) == (c.front() >= 0.0)) {
-            low = s;
-            atLow = value;
-            atHigh *= 0.5;
-        } else {
-            high = s;
-            atHigh = value;
-            atLow *= 0.5;
-        }
-        if (value == 0.0) {
-            return s;
-        }
+    double s = std::abs(whole.front()) / (std::abs(whole.front()) + std::abs(whole.back()));
+    if (!(s > low && s < high)) {
+        s = 0.5;  // an end is 0: the crossing may still be elsewhere
     }
-    return 0.5 * (low + high);
+    for (int step = 0; step < 100 && low < s && s < high; ++step) {
+        // De Casteljau down to two points: their difference is the slope.
+        Bernstein<N> c = whole;
+        for (std::size_t level = N - 1; level > 1; --level) {
+            for (std::size_t i = 0; i < level; ++i) {
+                c[i] = (1.0 - s) * c[i] + s * c[i + 1];
+            }
+        }
+        const double value = (1.0 - s) * c[0] + s * c[1];
+        const double slope = static_cast<double>(N - 1) * (c[1] - c[0]);
+        ((value >= 0.0) == isPositive ? low : high) = s;
+        const double next = s - value / slope;
+        if (std::abs(next - s) <= 2e-16) {
+            return next;
+        }
+        s = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    return s;
 }
 
 /// First place in [0, 1] where the sign changes (0 counts as positive). Exact in what it tells apart: a part
