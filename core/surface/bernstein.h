@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -62,12 +63,18 @@ double valueAt(Bernstein<N> c, double s) {
 template <std::size_t N>
 double refineRoot(const Bernstein<N>& whole) {
     const bool isPositive = whole.front() >= 0.0;
+    // A root on an end draws Newton's steps away from the crossing: divide it out.
+    constexpr double kNothing = 1e-12;
+    double largest = 0.0;
+    for (const double c : whole) {
+        largest = std::max(largest, std::abs(c));
+    }
+    const bool startsOnRoot = std::abs(whole.front()) <= kNothing * largest;
+    const bool endsOnRoot = std::abs(whole.back()) <= kNothing * largest;
     double low = 0.0;
     double high = 1.0;
-    double s = std::abs(whole.front()) / (std::abs(whole.front()) + std::abs(whole.back()));
-    if (!(s > low && s < high)) {
-        s = 0.5;  // an end is 0: the crossing may still be elsewhere
-    }
+    const double middle = std::abs(whole.front()) / (std::abs(whole.front()) + std::abs(whole.back()));
+    double s = startsOnRoot || endsOnRoot ? 0.5 : middle;
     for (int step = 0; step < 100 && low < s && s < high; ++step) {
         // De Casteljau down to two points: their difference is the slope.
         Bernstein<N> c = whole;
@@ -77,7 +84,8 @@ double refineRoot(const Bernstein<N>& whole) {
             }
         }
         const double value = (1.0 - s) * c[0] + s * c[1];
-        const double slope = static_cast<double>(N - 1) * (c[1] - c[0]);
+        const double slope = static_cast<double>(N - 1) * (c[1] - c[0]) - (startsOnRoot ? value / s : 0.0) +
+                             (endsOnRoot ? value / (1.0 - s) : 0.0);
         ((value >= 0.0) == isPositive ? low : high) = s;
         const double next = s - value / slope;
         if (std::abs(next - s) <= 2e-16) {
