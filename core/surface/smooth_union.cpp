@@ -187,33 +187,28 @@ std::optional<ProjectedPoint> SmoothUnion::closestPoint(const Vec3d& position) c
 double SmoothUnion::normalVariation(const Vec3d& point, double radius) const {
     // The gradient is sum k (x - c) with k = 6 w^2 / S^2, and k of a point in the ball lies in an interval:
     // g(x) = G + sum dk (c' - c) + sum k (x - c'), c' the ball's middle, G with the intervals' middles.
+    const auto factor = [&](const Part& ball, double distance) {
+        const double w = std::max(0.0, 1.0 - distance * distance / ball.reachSquared);
+        return 6.0 * w * w / ball.reachSquared;
+    };
     const Vec3d normal = glm::normalize(gradient(point));
     Vec3d middle(0.0);
-    for (const Part& ball : balls_) {
-        const Vec3d r = point - ball.center;
-        const double distance = glm::length(r);
-        const double nearest = std::max(0.0, distance - radius);
-        const double farthest = distance + radius;
-        const double most = std::max(0.0, 1.0 - nearest * nearest / ball.reachSquared);
-        const double least = std::max(0.0, 1.0 - farthest * farthest / ball.reachSquared);
-        middle += (3.0 * (most * most + least * least) / ball.reachSquared) * r;
-    }
     double across = 0.0;
-    double along = glm::dot(middle, normal);
-    across += glm::length(middle - along * normal);
+    double along = 0.0;
     for (const Part& ball : balls_) {
         const Vec3d r = point - ball.center;
         const double distance = glm::length(r);
-        const double nearest = std::max(0.0, distance - radius);
-        const double farthest = distance + radius;
-        const double most = std::max(0.0, 1.0 - nearest * nearest / ball.reachSquared);
-        const double least = std::max(0.0, 1.0 - farthest * farthest / ball.reachSquared);
-        const double deviation = 3.0 * (most * most - least * least) / ball.reachSquared;
+        const double most = factor(ball, std::max(0.0, distance - radius));
+        const double least = factor(ball, distance + radius);
+        const double deviation = 0.5 * (most - least);
         const double ahead = glm::dot(r, normal);
-        across +=
-            deviation * glm::length(r - ahead * normal) + radius * 6.0 * most * most / ball.reachSquared;
-        along -= deviation * std::abs(ahead) + radius * 6.0 * most * most / ball.reachSquared;
+        middle += 0.5 * (most + least) * r;
+        across += deviation * glm::length(r - ahead * normal) + radius * most;
+        along -= deviation * std::abs(ahead) + radius * most;
     }
+    const double toward = glm::dot(middle, normal);
+    across += glm::length(middle - toward * normal);
+    along += toward;
     return along > 0.0 ? std::atan2(across, along) : base::kPi;
 }
 

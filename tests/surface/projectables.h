@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/base/photometry.h"
+#include "core/base/random.h"
 #include "core/surface/bernstein.h"
 #include "core/surface/dual_cage.h"
 #include "core/surface/region.h"
@@ -167,6 +168,21 @@ struct ProjectedUnion {
     surface::ProjectedSurface surface{object, surface::buildDualCage(object).value()};
 };
 
+/// The three surfaces that every general property is tested on.
+struct Shapes {
+    ProjectedSphere sphere;
+    ProjectedTorus torus;
+    ProjectedUnion blobs;
+    std::array<const surface::ProjectedSurface*, 3> all() const {
+        return {&sphere.surface, &torus.surface, &blobs.surface};
+    }
+};
+
+inline const Shapes& shapes() {
+    static const Shapes made;
+    return made;
+}
+
 /// Calls visit(patch, region) for all elements of one level.
 template <class Visit>
 void forElements(const surface::Surface& surface, unsigned level, const Visit& visit) {
@@ -183,6 +199,20 @@ void forElements(const surface::Surface& surface, unsigned level, const Visit& v
     for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
         descend(descend, patch, surface::wholePatch(surface.domain(patch)), level);
     }
+}
+
+inline Vec2d inRegion(const surface::Region& region, base::RandomStream& random) {
+    return surface::mapToRegion(region, random.next2()).uv;
+}
+
+inline surface::Region wholeOf(const surface::Surface& surface, std::uint32_t patch) {
+    return surface::wholePatch(surface.domain(patch));
+}
+
+inline double areaAt(const surface::Surface& surface, unsigned level) {
+    double sum = 0.0;
+    forElements(surface, level, [&](auto patch, const surface::Region& r) { sum += surface.area(patch, r); });
+    return sum;
 }
 
 }  // namespace fluxwalk::test
