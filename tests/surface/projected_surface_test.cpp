@@ -13,7 +13,6 @@ namespace fluxwalk {
 namespace {
 
 using base::kPi;
-using base::NormalCone;
 using base::Vec2d;
 using base::Vec3d;
 using surface::Region;
