@@ -50,6 +50,8 @@ constexpr std::array kScenes{
                  [] { return buildStrips(200.0, 20, 0.8f); }},
     BuiltInScene{"two-rooms", "two furnished rooms and a door, the lamp in one of them", buildTwoRooms},
     BuiltInScene{"lamp-box", "a lamp in a sealed box inside a room: no light may leak out", buildLampBox},
+    BuiltInScene{"blobs", "a room with balls that melt into each other: a surface known by its rays alone",
+                 buildBlobs},
 };
 
 }  // namespace

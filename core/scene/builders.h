@@ -50,4 +50,8 @@ Scene buildTwoRooms();
 /// room, box, lamp.
 Scene buildLampBox();
 
+/// A closed room with a lamp and a sculpture, a smooth union of balls on a plinth: an object that can only
+/// meet rays. Objects: room, lamp, plinth, sculpture.
+Scene buildBlobs();
+
 }  // namespace fluxwalk::scene

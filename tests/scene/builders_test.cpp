@@ -97,7 +97,7 @@ TEST(BuiltInScenes, litCornellBoxHas800Lumens) {
 // No ray that starts inside a closed scene may leave it, and none may meet the outside of the shell.
 TEST(BuiltInScenes, closedScenesAreClosed) {
     const base::Executor executor(1);
-    for (const char* name : {"furnace", "furnace-planar", "cie-5.8", "two-rooms", "lamp-box"}) {
+    for (const char* name : {"furnace", "furnace-planar", "cie-5.8", "two-rooms", "lamp-box", "blobs"}) {
         const scene::Scene closed = *scene::buildScene(name);
         const rays::RayScene rays(closed, executor);
         for (const scene::Camera& camera : closed.cameras) {
