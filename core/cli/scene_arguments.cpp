@@ -72,7 +72,7 @@ scene::Scene readSceneFile(const std::filesystem::path& file) {
         return io::readGltf(file);
     }
     scene::Scene scene = io::readLitGltf(file).scene;
-    scene.warnings.push_back(
+    scene.warnings.emplace_back(
         "a lit file: its displayed triangles are the scene now; the original solves better");
     return scene;
 }
