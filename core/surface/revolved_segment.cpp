@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "core/surface/integrate_area.h"
 
 namespace fluxwalk::surface {
 
@@ -127,7 +128,7 @@ double RevolvedSegment::measureAround(std::uint32_t patch, double from, double t
 
 double RevolvedSegment::area(std::uint32_t patch, const Region& region) const {
     if (!isParameterBox(region)) {
-        return Surface::area(patch, region);
+        return integrateArea(*this, patch, region);
     }
     // The measure is the radius, linear in v, times a function of u.
     const auto [lower, upper] = parameterBox(region);

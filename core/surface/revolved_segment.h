@@ -22,7 +22,7 @@ class RevolvedSegment : public Surface {
     /// The exact box, and the cone of its normals up to a few percent. Regions that do not run along u and v
     /// get those of the least one around them that does.
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
-    /// To rounding for regions along u and v.
+    /// To rounding for regions along u and v, else to about 1e-12.
     double area(std::uint32_t patch, const Region& region) const override;
     Box bounds() const override;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
-#include "core/surface/region.h"
+#include "core/surface/integrate_area.h"
 #include "core/surface/torus_roots.h"
 
 namespace fluxwalk::surface {
@@ -100,39 +100,15 @@ RegionBounds Torus::bounds(std::uint32_t patch, const Region& region) const {
 }
 
 double Torus::area(std::uint32_t patch, const Region& region) const {
-    if (!isParameterBox(region)) {
-        return Surface::area(patch, region);
+    if (scale_ == 0.0 || !isParameterBox(region)) {
+        return integrateArea(*this, patch, region);
     }
     const auto [lower, upper] = parameterBox(region);
-    if (scale_ == 0.0) {
-        return integrateArea(patch, region, Surface::area(patch, region), 0);
-    }
     // Integral of (1 + tube cos), the difference of sines as a product.
     const double from = kQuarter * (static_cast<double>(patch >> 2) + lower.y);
     const double to = kQuarter * (static_cast<double>(patch >> 2) + upper.y);
     const double sines = 2.0 * std::cos(0.5 * (from + to)) * std::sin(0.5 * (to - from));
     return scale_ * scale_ * kQuarter * (upper.x - lower.x) * tube_ * ((to - from) + tube_ * sines);
-}
-
-// Quarters the region until that changes nothing.
-double Torus::integrateArea(std::uint32_t patch, const Region& region, double once, int depth) const {
-    constexpr double kTolerance = 1e-12;
-    constexpr int kDeepest = 8;
-    const std::array<Region, 4> parts = childRegions(*this, patch, region);
-    std::array<double, 4> areas{};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        areas[i] = Surface::area(patch, parts[i]);
-        sum += areas[i];
-    }
-    if (depth == kDeepest || std::abs(sum - once) <= kTolerance * once) {
-        return sum;
-    }
-    sum = 0.0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        sum += integrateArea(patch, parts[i], areas[i], depth + 1);
-    }
-    return sum;
 }
 
 std::optional<SurfaceHit> Torus::intersect(const Vec3d& origin, const Vec3d& direction, double tNear,

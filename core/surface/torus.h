@@ -27,7 +27,7 @@ class Torus final : public Surface {
     /// The exact box, and the cone of its normals up to a few percent. Regions that do not run along u and v
     /// get those of the least one around them that does.
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
-    /// To rounding under similarities, to 1e-11 under other maps, for regions along u and v.
+    /// To rounding under similarities for regions along u and v, else to about 1e-12.
     double area(std::uint32_t patch, const Region& region) const override;
     std::optional<SurfaceHit> intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                         double tFar) const override;
@@ -36,7 +36,6 @@ class Torus final : public Surface {
   private:
     double partOf(double u) const { return clockwise_ ? 1.0 - u : u; }
     Arc ringArc(std::uint32_t patch, double u0, double u1) const;
-    double integrateArea(std::uint32_t patch, const Region& region, double once, int depth) const;
     Vec2d locateUnit(std::uint32_t patch, const Vec3d& unit) const;
 
     AffineMap map_;

@@ -119,16 +119,16 @@ TEST_P(CurvedRays, NonePassesBetweenElements) {
             const Vec2d next = region.corners[(corner + 1) % region.cornerCount];
             const double along = i % 3 == 0 ? 0.0 : random.next();
             const Vec2d onEdge = region.corners[corner] + along * (next - region.corners[corner]);
-            const SurfacePoint p = shape.evaluate(patch, onEdge);
-            const Vec3d middle = shape.evaluate(patch, surface::mapToRegion(region, Vec2d(.5)).uv).position;
-            // Towards the element's middle, tangentially: near the edge, and on the surface where that ends.
-            Vec3d inwards = middle - p.position;
-            inwards = glm::normalize(inwards - glm::dot(inwards, p.normal) * p.normal);
-            const Vec3d target = p.position + size * std::pow(10.0, -10.0 + 3.0 * random.next()) * inwards;
+            const Vec2d middle = surface::mapToRegion(region, Vec2d(.5)).uv;
+            // On the surface and 1e-10 to 1e-7 of the size off the edge.
+            const Vec3d edge = shape.evaluate(patch, onEdge).position;
+            const double reach = glm::distance(shape.evaluate(patch, middle).position, edge);
+            const double off = size * std::pow(10.0, -10.0 + 3.0 * random.next()) / reach;
+            const SurfacePoint p = shape.evaluate(patch, onEdge + std::min(off, 1.0) * (middle - onEdge));
             const Vec3d towards = frontDirection(p.normal, random);
             const double away = size * (.01 + 3.0 * random.next());
             ++shot;
-            passed += shape.intersect(target + away * towards, -towards, 0.0, away + 1e-5 * size) ? 0 : 1;
+            passed += shape.intersect(p.position + away * towards, -towards, 0.0, away + 1e-5 * size) ? 0 : 1;
         }
     }
     EXPECT_GE(shot, 100000);

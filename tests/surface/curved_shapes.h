@@ -30,9 +30,6 @@ struct CurvedShape {
     std::function<SurfacePtr(const Mat4d& worldFromLocal, bool inside)> make;
     /// Edges that two different patches share.
     int sharedEdgeCount = 0;
-    /// Whether areas under maps that are no similarities hold to rounding and cones of normals to a factor
-    /// of 2.
-    bool isExactUnderAnyMap = true;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const CurvedShape& shape) {
@@ -46,7 +43,7 @@ inline std::vector<CurvedShape> curvedShapes() {
         return std::make_shared<const decltype(made)>(std::move(made));
     };
     return {
-        {"sphere", [=](const Mat4d& m, bool in) { return shared(Sphere(m, in)); }, 12, false},
+        {"sphere", [=](const Mat4d& m, bool in) { return shared(Sphere(m, in)); }, 12},
         {"cylinder", [=](const Mat4d& m, bool in) { return shared(Cylinder(m, .7, 1.9, in)); }, 4},
         {"flatCylinder", [=](const Mat4d& m, bool in) { return shared(Cylinder(m, 1.3, .05, in)); }, 4},
         {"cone", [=](const Mat4d& m, bool in) { return shared(Cone(m, .8, 0, 1.5, in)); }, 4},
@@ -65,7 +62,6 @@ inline std::vector<CurvedShape> curvedShapes() {
 struct Placed {
     std::string name;
     SurfacePtr surface;
-    bool isSimilar = false;
 };
 
 inline Mat4d randomRotation(base::RandomStream& random) {
@@ -91,7 +87,7 @@ inline std::vector<Placed> placements(const CurvedShape& shape, std::uint64_t ke
     std::vector<Placed> all;
     for (const bool inside : {false, true}) {
         const std::string side = inside ? " inside" : "";
-        all.push_back({shape.name + side, shape.make(Mat4d(1.0), inside), true});
+        all.push_back({shape.name + side, shape.make(Mat4d(1.0), inside)});
         for (const bool mirror : {false, true}) {
             Mat4d similar = randomRotation(random);
             Mat4d scale(1.0);
@@ -108,8 +104,8 @@ inline std::vector<Placed> placements(const CurvedShape& shape, std::uint64_t ke
                 affine[2] = -affine[2];
             }
             const std::string how = side + (mirror ? " mirrored" : "");
-            all.push_back({shape.name + how + " similar", shape.make(similar, inside), true});
-            all.push_back({shape.name + how + " affine", shape.make(affine, inside), false});
+            all.push_back({shape.name + how + " similar", shape.make(similar, inside)});
+            all.push_back({shape.name + how + " affine", shape.make(affine, inside)});
         }
     }
     return all;

@@ -104,7 +104,7 @@ TEST(Torus, AgreesWithASearchForSignChanges) {
     }
     EXPECT_EQ(rays, 10000);
     EXPECT_GT(crossings, 9000);
-    EXPECT_GT(four, 400);
+    EXPECT_GT(four, 200);
 }
 
 TEST(Torus, SpecialRays) {
