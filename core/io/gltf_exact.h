@@ -12,8 +12,8 @@ namespace fluxwalk::io {
 /// supported becomes a warning, and the stand-in is used.
 bool hasExactSurface(GltfModel& model, const PlacedNode& node);
 
-/// The exact surface that `fluxwalk_surface` names, with absent sizes from the stand-in's bounds; null (with
-/// a warning) where the node's transform or sizes leave it no area.
+/// The exact surface that `fluxwalk_surface` names (hasExactSurface), with absent sizes from the stand-in's
+/// bounds; null (with a warning) where the node's transform or sizes leave it no area or fit no such surface.
 std::shared_ptr<const surface::Surface> readExactSurface(GltfModel& model, const PlacedNode& node);
 
 }  // namespace fluxwalk::io

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/surface/integrate_area.h"
+#include "core/surface/turns.h"
 
 namespace fluxwalk::surface {
 
@@ -143,13 +145,11 @@ RegionBounds Sphere::bounds(std::uint32_t patch, const Region& region) const {
         result.normals = {normalAt(axis), halfAngle};
         return result;
     }
-    // Normals of an ellipsoid turn by at most the map's condition number faster than directions do.
-    const double stretch =
-        std::max({glm::length(linear_[0]), glm::length(linear_[1]), glm::length(linear_[2])});
-    const double shrink =
-        std::max({glm::length(inverse_[0]), glm::length(inverse_[1]), glm::length(inverse_[2])});
-    const double condition = 3.0 * stretch * shrink;
-    result.normals = {normalAt(axis), std::min(kPi, halfAngle * condition)};
+    // Directions of the triangle are combinations of its corners', so its normals are of theirs.
+    for (Vec3d& c : corner) {
+        c = normalAt(c);
+    }
+    result.normals = coneAround(corner);
     return result;
 }
 
@@ -159,7 +159,7 @@ double Sphere::area(std::uint32_t patch, const Region& region) const {
                solidAngle(directionAt(patch, region.corners[0]), directionAt(patch, region.corners[1]),
                           directionAt(patch, region.corners[2]));
     }
-    return Surface::area(patch, region);
+    return integrateArea(*this, patch, region);
 }
 
 std::optional<double> Sphere::exactKernel(bool back) const {

@@ -247,7 +247,7 @@ TEST_F(GltfScene, ReadsASphereInsteadOfItsStandIn) {
                       {"extras", {{"fluxwalk_surface", "sphere"}, {"fluxwalk_radius", 0.5}}}});
     fixture_.addNode(
         {{"mesh", mesh}, {"extras", {{"fluxwalk_surface", "sphere"}, {"fluxwalk_inside", true}}}});
-    fixture_.addNode({{"mesh", mesh}, {"extras", {{"fluxwalk_surface", "torus"}}}});
+    fixture_.addNode({{"mesh", mesh}, {"extras", {{"fluxwalk_surface", "teapot"}}}});
     fixture_.addNode({{"mesh", mesh}, {"extras", {{"fluxwalk_subdivision", "loop"}}}});
     const scene::Scene scene = read();
     ASSERT_EQ(scene.objects.size(), 4u);
@@ -259,7 +259,7 @@ TEST_F(GltfScene, ReadsASphereInsteadOfItsStandIn) {
     const surface::SurfacePoint point = scene.objects[1].surface->evaluate(0, {0.3, 0.3});
     EXPECT_LT(glm::dot(point.normal, point.position), 0.0);
     EXPECT_EQ(scene.objects[2].surface->kind(), "polygon mesh");
-    EXPECT_TRUE(test::hasWarning(scene, "fluxwalk_surface 'torus' is not supported"));
+    EXPECT_TRUE(test::hasWarning(scene, "fluxwalk_surface 'teapot' is not supported"));
     EXPECT_TRUE(test::hasWarning(scene, "fluxwalk_subdivision is not supported"));
 }
 

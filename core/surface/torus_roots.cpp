@@ -1,0 +1,122 @@
+#include "core/surface/torus_roots.h"
+
+#include <cmath>
+
+namespace fluxwalk::surface {
+
+namespace {
+
+using base::Vec3d;
+
+struct ValueAndSlope {
+    double value = 0.0;
+    double slope = 0.0;
+};
+
+// The root of a function that changes its sign between `lower` and `upper`: Newton's steps, and halving
+// wherever these leave the bracket or do not shrink.
+template <class Function>
+double rootWithin(const Function& f, double lower, double upper, bool rises) {
+    constexpr int kMostSteps = 200;
+    double s = 0.5 * (lower + upper);
+    double lastStep = upper - lower;
+    for (int i = 0; i < kMostSteps; ++i) {
+        const ValueAndSlope at = f(s);
+        if (at.value == 0.0) {
+            return s;
+        }
+        ((at.value > 0.0) == rises ? upper : lower) = s;
+        const double step = at.value / at.slope;
+        double next = s - step;
+        if (!(next > lower && next < upper) || std::abs(step) > 0.5 * lastStep) {
+            next = 0.5 * (lower + upper);
+        }
+        lastStep = std::abs(next - s);
+        if (next == s || lastStep <= 1e-16) {
+            return next;
+        }
+        s = next;
+    }
+    return s;
+}
+
+/// Ascending numbers, at most four.
+struct Few {
+    std::array<double, 5> at{};
+    std::size_t count = 0;
+    void add(double s) { at[count++] = s; }
+};
+
+// Roots of a function between neighbouring `stops`, from one to the next of which it rises or falls only.
+template <class Function>
+Few rootsBetween(const Function& f, const Few& stops) {
+    Few roots;
+    double last = f(stops.at[0]).value;
+    for (std::size_t i = 1; i < stops.count; ++i) {
+        const double value = f(stops.at[i]).value;
+        if ((last < 0.0) != (value < 0.0)) {
+            roots.add(rootWithin(f, stops.at[i - 1], stops.at[i], last < 0.0));
+        }
+        last = value;
+    }
+    return roots;
+}
+
+// `inner`, with the ends of an interval around it.
+Few withEnds(double reach, const Few& inner) {
+    Few stops;
+    stops.add(-reach);
+    for (std::size_t i = 0; i < inner.count; ++i) {
+        stops.add(inner.at[i]);
+    }
+    stops.add(reach);
+    return stops;
+}
+
+}  // namespace
+
+std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d& along) {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    std::array<double, 4> crossings{kInf, kInf, kInf, kInf};
+    const double squared = glm::dot(foot, foot);
+    const double outer = 1.0 + tube;
+    // Beyond the sphere around the torus by more than rounding, or not finite.
+    const double reachSquared = outer * outer * (1.0 + 1e-12) - squared;
+    if (!(reachSquared > 0.0)) {
+        return crossings;
+    }
+    // (|p|^2 + 1 - tube^2)^2 = 4 (x^2 + z^2) along the line is a quartic without cubic term, as the foot is
+    // perpendicular to the line. A quarter of its derivative is s^3 + linear s + constant.
+    const double flat = along.x * along.x + along.z * along.z;
+    const double linear = squared + 1.0 - tube * tube - 2.0 * flat;
+    const double constant = -2.0 * (foot.x * along.x + foot.z * along.z);
+    const auto derivative = [&](double s) -> ValueAndSlope {
+        return {(s * s + linear) * s + constant, 3.0 * s * s + linear};
+    };
+    // The torus as distance from the tube's centre line: it has the quartic's roots, and stays exact where
+    // the tube is thin.
+    const auto fromTube = [&](double s) -> ValueAndSlope {
+        const Vec3d p = foot + s * along;
+        const double radius = std::hypot(p.x, p.z);
+        const double h = radius - 1.0;
+        const double outwards = radius > 0.0 ? (p.x * along.x + p.z * along.z) / radius : 0.0;
+        return {h * h + p.y * p.y - tube * tube, 2.0 * (h * outwards + p.y * along.y)};
+    };
+    const double reach = std::sqrt(reachSquared);
+    Few turns;
+    if (linear < 0.0) {
+        const double turn = std::sqrt(-linear / 3.0);
+        if (turn < reach) {
+            turns.add(-turn);
+            turns.add(turn);
+        }
+    }
+    const Few extremes = rootsBetween(derivative, withEnds(reach, turns));
+    const Few roots = rootsBetween(fromTube, withEnds(reach, extremes));
+    for (std::size_t i = 0; i < roots.count && i < crossings.size(); ++i) {
+        crossings[i] = roots.at[i];
+    }
+    return crossings;
+}
+
+}  // namespace fluxwalk::surface

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "core/base/vec.h"
+
+namespace fluxwalk::surface {
+
+/// Where a line passes through the torus about +Y of ring radius 1 and tube radius `tube`: the distances from
+/// `foot` along the unit vector `along`, ascending, then infinity. `foot` is the line's point nearest to the
+/// centre. Tangents within rounding may count as two crossings or none; other crossings are right to
+/// rounding.
+std::array<double, 4> torusCrossings(double tube, const base::Vec3d& foot, const base::Vec3d& along);
+
+}  // namespace fluxwalk::surface
