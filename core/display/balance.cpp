@@ -16,7 +16,7 @@ GridPoint stepFrom(const GridPoint& p, const GridPoint& step, std::uint32_t size
 }
 
 std::uint32_t signedSize(const Cell& cell) {
-    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the analyzer does not know bit_width
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): bit_width is unknown to it
     const std::uint32_t size = kGridSize >> surface::pathLevel(cell.path);
     return cell.inverted ? 0u - size : size;
 }
@@ -92,8 +92,7 @@ class Balancer {
 
     void split(std::size_t index) {
         const Cell parent = cells_[index];
-        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the analyzer does not know
-        // bit_width
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): bit_width is unknown to it
         const std::uint32_t half = kGridSize >> (surface::pathLevel(parent.path) + 1);
         cells_[index].firstChild = static_cast<std::uint32_t>(cells_.size());
         for (unsigned k = 0; k < 4; ++k) {

@@ -35,7 +35,8 @@ class CurvatureSplitter {
     void split(const Cell& cell, std::uint32_t source, surface::Path path, const Region& region,
                unsigned levels, std::vector<Cell>& out) const {
         if (levels == 0 || surface::pathLevel(path) == surface::kMaxLevel ||
-            surface_.bounds(cell.patch, region).normals.halfAngle <= angle_) {
+            (surface_.bounds(cell.patch, region).normals.halfAngle <= angle_ &&
+             !hasBentEdge(cell.patch, region))) {
             out.push_back(makeCell(topology_, cell.patch, path, source));
             return;
         }
@@ -43,6 +44,26 @@ class CurvatureSplitter {
         for (unsigned k = 0; k < 4; ++k) {
             split(cell, source, surface::childPath(path, k), quarters[k], levels - 1, out);
         }
+    }
+
+    // Whether an edge turns by more than twice the angle, as a disk's rim does though its normals do not.
+    bool hasBentEdge(std::uint32_t patch, const Region& region) const {
+        std::array<Vec3d, 4> corners{};
+        for (unsigned k = 0; k < region.cornerCount; ++k) {
+            corners[k] = surface_.evaluate(patch, region.corners[k]).position;
+        }
+        for (unsigned k = 0; k < region.cornerCount; ++k) {
+            const unsigned next = (k + 1) % region.cornerCount;
+            const base::Vec2d uv = surface_.splitPoint(patch, region.corners[k], region.corners[next]);
+            const double halfChord = 0.5 * glm::distance(corners[k], corners[next]);
+            const double sagitta =
+                glm::distance(surface_.evaluate(patch, uv).position, 0.5 * (corners[k] + corners[next]));
+            // An arc that turns by 2 a has a sagitta of tan(a / 2) half chords.
+            if (sagitta > std::tan(0.5 * std::min(angle_, 3.0)) * halfChord) {
+                return true;
+            }
+        }
+        return false;
     }
 
     const PatchTopology& topology_;
@@ -65,8 +86,7 @@ class CellReader {
                               : 0.5f * (corners_[k] + corners_[(k + 1) % count]);
         }
         center_ = mesh.values.centers[index];
-        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the analyzer does not know
-        // bit_width
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): bit_width is unknown to it
         scale_ = 1.0 / (kGridSize >> surface::pathLevel(cell_.path));
     }
 

@@ -9,9 +9,10 @@
 /// 1, curvature-based post-refinement).
 namespace fluxwalk::display {
 
-/// Quarters cells until their normals lie within `angle` (radians) of a common axis, at most kMaxExtraLevels
-/// times. What comes out is ordered as the cells are, not balanced, its points are not numbered and its
-/// `source` is the index of the cell that holds it. Empty if no cell needs it.
+/// Quarters cells until their normals lie within `angle` (radians) of a common axis and no edge turns by more
+/// than twice that, at most kMaxExtraLevels times. What comes out is ordered as the cells are, not balanced,
+/// its points are not numbered and its `source` is the index of the cell that holds it. Empty if no cell
+/// needs it.
 std::vector<Cell> refineByCurvature(const PatchTopology& topology, std::span<const Cell> cells, double angle);
 inline constexpr unsigned kMaxExtraLevels = 7;
 

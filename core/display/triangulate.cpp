@@ -88,7 +88,12 @@ class Triangulator {
                                        values_.values[vertex.value], vertex.patch, vertex.uv);
     }
 
+    // At a pole an edge has no length, and what hangs on it no area.
     void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const std::vector<Vec3>& p = mesh_.positions;
+        if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) {
+            return;
+        }
         mesh_.triangles.push_back(a);
         mesh_.triangles.push_back(mesh_.back ? c : b);
         mesh_.triangles.push_back(mesh_.back ? b : c);

@@ -11,6 +11,7 @@
 namespace fluxwalk::io {
 
 /// A .glb under construction: JSON and the binary chunk that its accessors and images point into.
+// NOLINTNEXTLINE(bugprone-exception-escape): nlohmann::json moves without exceptions
 class GlbBuilder {
   public:
     /// The document; bufferViews, accessors and buffers are filled by this class.

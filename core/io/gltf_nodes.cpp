@@ -1,7 +1,6 @@
 #include "core/io/gltf_nodes.h"
 
 #include <cmath>
-#include <ranges>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -102,8 +101,8 @@ std::vector<PlacedNode> placeNodes(const GltfModel& model) {
     };
     std::vector<Pending> stack;
     const std::vector<int> roots = findRoots(model);
-    for (const int root : std::views::reverse(roots)) {
-        stack.push_back({root, base::Mat4d(1.0)});
+    for (std::size_t i = roots.size(); i-- > 0;) {
+        stack.push_back({roots[i], base::Mat4d(1.0)});
     }
     std::vector<PlacedNode> placed;
     while (!stack.empty()) {
@@ -112,8 +111,8 @@ std::vector<PlacedNode> placeNodes(const GltfModel& model) {
         const base::Mat4d world = next.worldFromParent * localTransform(model, next.node);
         placed.push_back({next.node, placeOf(model, next.node), world});
         const std::vector<int>& children = model.data.nodes[static_cast<std::size_t>(next.node)].children;
-        for (const int child : std::views::reverse(children)) {
-            stack.push_back({child, world});
+        for (std::size_t i = children.size(); i-- > 0;) {
+            stack.push_back({children[i], world});
         }
     }
     return placed;

@@ -275,7 +275,7 @@ class Validator : private JsonChecks {
                     fail(part + "/attributes", "is not an object");
                 }
                 for (const auto& [name, accessor] : attributes.items()) {
-                    checkTarget(accessor, "accessors", part + "/attributes/" + name);
+                    checkTarget(accessor, "accessors", std::string(part).append("/attributes/").append(name));
                 }
             });
         });

@@ -1,0 +1,160 @@
+#include "core/display/curvature.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/display/interpolate.h"
+#include "tests/display/display_scenes.h"
+#include "tests/display/mesh_checks.h"
+#include "tests/surface/curved_shapes.h"
+
+// Post-refinement of curved surfaces for the eye: regular, closed, exact, and of the same light.
+
+namespace fluxwalk::display {
+namespace {
+
+constexpr double kDegree = base::kPi / 180.0;
+
+double slope(const Vec3d& p) {
+    return 3.0 + 0.5 * p.x - 0.2 * p.y + 0.1 * p.z;
+}
+
+const auto kNever = [](std::uint32_t, surface::Path, const surface::Region&) { return false; };
+
+DisplayMeshes build(const surface::Surface& surface, const std::vector<Leaf>& leaves, double angle) {
+    MeshOptions options;
+    options.curvatureAngle = angle;
+    return buildDisplayMeshes(PatchTopology(surface), 0, 0, leaves, options);
+}
+
+class Curvature : public testing::TestWithParam<test::CurvedShape> {
+  protected:
+    test::SurfacePtr surface_ = GetParam().make(base::Mat4d(1.0), false);
+};
+INSTANTIATE_TEST_SUITE_P(Shapes, Curvature, testing::ValuesIn(test::curvedShapes()),
+                         [](const auto& shape) { return shape.param.name; });
+
+// From the coarsest solution and from random ones, with normals as they are on the shape.
+TEST_P(Curvature, closesAndKeepsToTheThreshold) {
+    for (const double angle : {12.0 * kDegree, 4.0 * kDegree}) {
+        for (std::uint64_t seed = 0; seed < 3; ++seed) {
+            const auto leaves = seed == 0 ? makeLeaves(*surface_, slope, kNever, 1)
+                                          : makeLeaves(*surface_, slope, SplitRandomly{seed, 3}, 1);
+            const DisplayMeshes built = build(*surface_, leaves, angle);
+            ASSERT_EQ(built.meshes.size(), 1u);
+            const EdgeReport report = checkEdges(*built.meshes[0]);
+            EXPECT_EQ(report.overused, 0u) << "an edge belongs to two triangles at most";
+            const CellTable& table = built.tables[0];
+            for (std::uint32_t patch = 0; patch < surface_->patchCount(); ++patch) {
+                for (std::uint32_t c = table.firstCell[patch]; c < table.firstCell[patch + 1]; ++c) {
+                    const surface::Region region = surface::regionOf(*surface_, patch, table.paths[c]);
+                    EXPECT_LE(surface_->bounds(patch, region).normals.halfAngle, angle + 1e-12);
+                }
+            }
+        }
+    }
+}
+
+TEST_P(Curvature, carriesTheLightThatWasShown) {
+    const auto leaves = makeLeaves(*surface_, slope, SplitRandomly{5, 2}, 2);
+    const DisplayMeshes coarse = build(*surface_, leaves, base::kPi);
+    const DisplayMeshes fine = build(*surface_, leaves, 3.0 * kDegree);
+    ASSERT_GT(fine.meshes[0]->triangles.size(), coarse.meshes[0]->triangles.size());
+    // At the coarse mesh's vertices nothing changes.
+    std::map<PositionKey, std::vector<Rgb>> shown;
+    for (std::size_t v = 0; v < fine.meshes[0]->positions.size(); ++v) {
+        shown[keyOf(fine.meshes[0]->positions[v])].push_back(fine.meshes[0]->irradiance[v]);
+    }
+    float lowest = std::numeric_limits<float>::infinity();
+    float highest = 0.0f;
+    for (std::size_t v = 0; v < coarse.meshes[0]->positions.size(); ++v) {
+        const auto found = shown.find(keyOf(coarse.meshes[0]->positions[v]));
+        ASSERT_NE(found, shown.end());
+        const Rgb& value = coarse.meshes[0]->irradiance[v];
+        EXPECT_TRUE(std::any_of(found->second.begin(), found->second.end(), [&](const Rgb& other) {
+            return glm::all(glm::lessThan(glm::abs(other - value), Rgb(1e-5f)));
+        }));
+        lowest = std::min(lowest, value.g);
+        highest = std::max(highest, value.g);
+    }
+    for (const Rgb& value : fine.meshes[0]->irradiance) {
+        EXPECT_GE(value.g, lowest - 1e-5f);
+        EXPECT_LE(value.g, highest + 1e-5f);
+    }
+}
+
+TEST_P(Curvature, isTheSameInEveryRunAndRedoneFromTheSolution) {
+    const auto leaves = makeLeaves(*surface_, slope, SplitRandomly{9, 2}, 2);
+    const DisplayMeshes first = build(*surface_, leaves, 5.0 * kDegree);
+    const DisplayMeshes again = build(*surface_, leaves, 5.0 * kDegree);
+    EXPECT_EQ(first.meshes[0]->triangles, again.meshes[0]->triangles);
+    EXPECT_EQ(first.meshes[0]->irradiance, again.meshes[0]->irradiance);
+}
+
+// Smallest angle of a mesh's triangles, in degrees, and how many are below `limit`.
+double smallestAngle(const scene::LitMesh& mesh) {
+    double smallest = 180.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3d at(mesh.positions[mesh.triangles[t + k]]);
+            const Vec3d a = Vec3d(mesh.positions[mesh.triangles[t + (k + 1) % 3]]) - at;
+            const Vec3d b = Vec3d(mesh.positions[mesh.triangles[t + (k + 2) % 3]]) - at;
+            smallest =
+                std::min(smallest, std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / kDegree);
+        }
+    }
+    return smallest;
+}
+
+TEST(CurvatureShapes, trianglesAreWellShaped) {
+    const surface::Sphere sphere(Vec3d(0.0), 1.0);
+    const surface::Torus torus(base::Mat4d(1.0), 1.0, 0.4);
+    const surface::Cylinder cylinder(base::Mat4d(1.0), 0.5, 1.2);
+    for (const surface::Surface* surface :
+         {static_cast<const surface::Surface*>(&sphere), static_cast<const surface::Surface*>(&torus),
+          static_cast<const surface::Surface*>(&cylinder)}) {
+        for (const double angle : {10.0, 5.0, 2.0}) {
+            const auto leaves = makeLeaves(*surface, slope, kNever, 1);
+            const DisplayMeshes built = build(*surface, leaves, angle * kDegree);
+            EXPECT_GE(smallestAngle(*built.meshes[0]), 15.0) << surface->kind() << ' ' << angle;
+            EXPECT_EQ(checkEdges(*built.meshes[0]).degenerate, 0u);
+        }
+    }
+}
+
+TEST(CurvatureShapes, aSphereIsClosedRoundAndSmooth) {
+    const surface::Sphere sphere(Vec3d(1.0, 2.0, 3.0), 0.5);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const auto leaves = makeLeaves(sphere, slope, SplitRandomly{seed, 3}, 1);
+        const DisplayMeshes built = build(sphere, leaves, 4.0 * kDegree);
+        const scene::LitMesh& mesh = *built.meshes[0];
+        const EdgeReport report = checkEdges(mesh);
+        EXPECT_TRUE(report.open.empty());
+        EXPECT_EQ(report.eulerCharacteristic(), 2);
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            const Vec3d out = Vec3d(mesh.positions[v]) - Vec3d(1.0, 2.0, 3.0);
+            EXPECT_NEAR(glm::length(out), 0.5, 1e-6);
+            EXPECT_GT(glm::dot(glm::normalize(out), Vec3d(mesh.normals[v])), 1.0 - 1e-6);
+        }
+        // A silhouette of chords that span at most twice the angle.
+        const double sagitta = 0.5 * (1.0 - std::cos(4.0 * kDegree));
+        for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3d a(mesh.positions[mesh.triangles[t + k]]);
+                const Vec3d b(mesh.positions[mesh.triangles[t + (k + 1) % 3]]);
+                EXPECT_GT(glm::length(0.5 * (a + b) - Vec3d(1.0, 2.0, 3.0)), 0.5 - sagitta - 1e-6);
+            }
+        }
+    }
+}
+
+TEST(CurvatureShapes, planesAreLeftAlone) {
+    const auto floor = makeFloor(2, 2.0f);
+    const auto leaves = makeLeaves(*floor, slope, SplitRandomly{3, 3}, 1);
+    EXPECT_EQ(build(*floor, leaves, base::kPi).meshes[0]->triangles,
+              build(*floor, leaves, kDegree).meshes[0]->triangles);
+}
+
+}  // namespace
+}  // namespace fluxwalk::display
