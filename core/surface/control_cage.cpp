@@ -17,7 +17,8 @@ struct DirectedEdge {
 };
 
 std::string nameEdge(const DirectedEdge& e) {
-    return "the edge between vertices " + std::to_string(e.from) + " and " + std::to_string(e.to);
+    return "the edge between vertices " + std::to_string(std::min(e.from, e.to)) + " and " +
+           std::to_string(std::max(e.from, e.to));
 }
 
 std::optional<std::string> checkNumbers(const ControlCage& cage) {

@@ -225,19 +225,26 @@ Tangents PieceTree::evaluate(std::uint32_t patch, const Vec2d& uv) const {
     return p;
 }
 
-Vec3d PieceTree::normalAt(std::uint32_t patch, const Vec2d& uv) const {
+SurfacePoint PieceTree::pointAt(std::uint32_t patch, const Vec2d& uv) const {
     const Place place = find(patch, uv);
+    SurfacePoint result;
     // Towards the middle of the piece, from no step at all to half the way.
     for (const double step : {0.0, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.5}) {
         const Vec2d at = place.uv + step * (middleOf(domain_) - place.uv);
         const Tangents p = evaluatePiece(pieces_[place.piece], at);
         const Vec3d n = glm::cross(p.du, p.dv);
         const double length = glm::length(n);
+        if (step == 0.0) {
+            result.position = p.position;
+            result.jacobian = length * place.scale * place.scale;
+        }
         if (length > 1e-7 * std::max(glm::dot(p.du, p.du), glm::dot(p.dv, p.dv))) {
-            return n / length;
+            result.normal = n / length;
+            return result;
         }
     }
-    return nodes_[patch].normals.axis;
+    result.normal = nodes_[patch].normals.axis;
+    return result;
 }
 
 RegionBounds PieceTree::bounds(std::uint32_t patch, const Region& region) const {

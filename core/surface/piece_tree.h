@@ -49,8 +49,9 @@ class PieceTree {
 
     /// Position and derivatives by the patch's parameters.
     Tangents evaluate(std::uint32_t patch, const Vec2d& uv) const;
-    /// Unit front normal; where the derivatives are parallel, that of the nearest place where they are not.
-    Vec3d normalAt(std::uint32_t patch, const Vec2d& uv) const;
+    /// Position, unit front normal and area measure. Where the derivatives are parallel, the normal is that
+    /// of the nearest place where they are not.
+    SurfacePoint pointAt(std::uint32_t patch, const Vec2d& uv) const;
     RegionBounds bounds(std::uint32_t patch, const Region& region) const;
     double area(std::uint32_t patch, const Region& region) const;
     Vec2d locate(std::uint32_t patch, const Vec3d& position) const;

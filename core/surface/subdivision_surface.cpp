@@ -222,8 +222,7 @@ Vec3d SubdivisionSurface::pointOnEdge(const Edge& edge, double s) const {
 }
 
 SurfacePoint SubdivisionSurface::evaluate(std::uint32_t patch, const Vec2d& uv) const {
-    const Tangents p = tree_->evaluate(patch, uv);
-    SurfacePoint result{p.position, tree_->normalAt(patch, uv), glm::length(glm::cross(p.du, p.dv))};
+    SurfacePoint result = tree_->pointAt(patch, uv);
     if (const auto at = sideOf(tree_->domain(), uv)) {
         const Patch& own = patches_[patch];
         const std::uint32_t sides = tree_->domain() == PatchDomain::quad ? 4 : 3;
