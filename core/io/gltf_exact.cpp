@@ -36,9 +36,6 @@ bool isUsable(const base::Mat4d& m) {
 
 bool hasExactSurface(GltfModel& model, const PlacedNode& node) {
     const tinygltf::Value& extras = extrasOf(model, node);
-    if (extras.Has("fluxwalk_subdivision")) {
-        model.warnings.add("fluxwalk_subdivision is not supported; the control mesh is used", node.place);
-    }
     if (!extras.Has("fluxwalk_surface")) {
         return false;
     }
