@@ -7,6 +7,9 @@ namespace fluxwalk::surface {
 
 namespace {
 
+/// Corners of a face and faces at a vertex: OpenSubdiv counts to 511.
+constexpr std::uint32_t kMaxValence = 256;
+
 /// Edge of a face from one vertex to the next.
 struct DirectedEdge {
     std::uint32_t from = 0;
@@ -29,6 +32,9 @@ std::optional<std::string> checkNumbers(const ControlCage& cage) {
         }
         if (cage.scheme == SubdivisionScheme::loop && cage.faceSizes[f] != 3) {
             return "face " + std::to_string(f) + " is no triangle, as the scheme of Loop needs";
+        }
+        if (cage.faceSizes[f] > kMaxValence) {
+            return "face " + std::to_string(f) + " has more than " + std::to_string(kMaxValence) + " corners";
         }
         total += cage.faceSizes[f];
     }
@@ -131,6 +137,10 @@ std::optional<std::string> checkVertices(const ControlCage& cage) {
         }
         if (begin == end) {
             return "vertex " + std::to_string(vertex) + " belongs to no face";
+        }
+        if (end - begin > kMaxValence) {
+            return "more than " + std::to_string(kMaxValence) + " faces meet at vertex " +
+                   std::to_string(vertex);
         }
         const auto next = [&](std::uint32_t spoke) -> const Corner* {
             const auto at = std::lower_bound(

@@ -39,9 +39,9 @@ struct ControlCage {
 };
 
 /// What makes a cage no control mesh, in words for its author: positions that are not finite, indices out of
-/// range, faces with too few or repeated corners or without area, edges of more than two faces or between
-/// faces that run in opposite directions, vertices without faces or where separate fans of faces meet. Empty
-/// where it is sound.
+/// range, faces with too few, too many (above 256) or repeated corners or without area, edges of more than
+/// two faces or between faces that run in opposite directions, vertices without faces, with more than 256, or
+/// where separate fans of faces meet. Empty where it is sound.
 std::optional<std::string> findDefect(const ControlCage& cage);
 
 /// The cage in its place. A map that mirrors keeps the front sides in front.

@@ -41,11 +41,9 @@ class PieceTree {
 
     PatchDomain domain() const { return domain_; }
     const Node& root() const { return nodes_[root_]; }
-    const Node& patch(std::uint32_t index) const { return nodes_[index]; }
     const Node& node(std::uint32_t index) const { return nodes_[index]; }
     const Facet& facet(std::uint32_t index) const { return facets_[index]; }
     const BezierPiece& piece(std::uint32_t index) const { return pieces_[index]; }
-    std::size_t facetCount() const { return facets_.size(); }
 
     /// Position and derivatives by the patch's parameters.
     Tangents evaluate(std::uint32_t patch, const Vec2d& uv) const;

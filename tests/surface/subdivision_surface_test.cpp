@@ -31,6 +31,22 @@ std::vector<ControlCage> allCages() {
             surface::transformCage(test::openLoopCage(), test::skewMap(true))};
 }
 
+/// A closed double cone of triangles about vertices 0 and 1.
+ControlCage wheelCage(std::uint32_t sides) {
+    ControlCage cage;
+    cage.positions = {{0, 1, 0}, {0, -1, 0}};
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const double a = 2.0 * base::kPi * i / sides;
+        cage.positions.emplace_back(std::cos(a), 0.0, -std::sin(a));
+    }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t next = 2 + (i + 1) % sides;
+        test::addFace(cage, {2 + i, next, 0});
+        test::addFace(cage, {next, 2 + i, 1});
+    }
+    return cage;
+}
+
 Vec2d anywhere(PatchDomain domain, base::RandomStream& random) {
     return surface::mapToRegion(surface::wholePatch(domain), random.next2()).uv;
 }
@@ -406,6 +422,39 @@ TEST(SubdivisionSurface, texcoordsAreThoseOfTheCorners) {
     // A mirror takes the coordinates along with their corners.
     const SubdivisionSurface mirrored(surface::transformCage(cage, test::skewMap(true)));
     EXPECT_EQ(mirrored.texcoord(5, {1, 0}, 1), Vec2d(8, -8));
+}
+
+// Cages at the edge of what is sound: two faces back to back, and as many faces at a vertex as may be.
+TEST(SubdivisionSurface, unusualCagesStayFinite) {
+    ControlCage pillow;
+    pillow.positions = {{0, 0, 0}, {1, 0, .2}, {1, 1, 0}, {0, 1, .1}};
+    test::addFace(pillow, {0, 1, 2, 3});
+    test::addFace(pillow, {3, 2, 1, 0});
+    ControlCage pole = test::vaseCage();
+    for (std::size_t i = 0; i < 10; ++i) {
+        // The lowest ring is one point, ten times.
+        pole.positions[i] = {0, 0, 0};
+    }
+    ControlCage loopWheel = wheelCage(60);
+    loopWheel.scheme = surface::SubdivisionScheme::loop;
+    for (const ControlCage& cage : {pillow, pole, wheelCage(256), loopWheel}) {
+        ASSERT_EQ(surface::findDefect(cage).value_or("none"), "none");
+        const SubdivisionSurface surface(cage);
+        for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
+            const Region whole = surface::wholePatch(surface.domain(patch));
+            EXPECT_TRUE(std::isfinite(surface.area(patch, whole)));
+            const surface::RegionBounds bounds = surface.bounds(patch, whole);
+            for (std::uint32_t k = 0; k < whole.cornerCount; ++k) {
+                const surface::SurfacePoint p = surface.evaluate(patch, whole.corners[k]);
+                EXPECT_NEAR(glm::length(p.normal), 1.0, 1e-12);
+                EXPECT_LE(base::NormalCone::angleBetween(p.normal, bounds.normals.axis),
+                          bounds.normals.halfAngle + 1e-9);
+            }
+            const Vec3d middle = surface.evaluate(patch, Vec2d(.3)).position;
+            const auto hit = surface.intersect(middle + Vec3d(3, 4, 5), Vec3d(-3, -4, -5), 0.0, 2.0);
+            EXPECT_TRUE(hit.has_value() && hit->t < 1.0 + 1e-9) << patch;
+        }
+    }
 }
 
 TEST(ControlCage, defectsAreNamed) {
