@@ -289,7 +289,7 @@ NormalCone boundNormals(const BezierPiece& piece) {
 }
 
 LinearModel linearize(const BezierPiece& piece) {
-    LinearModel model{evaluatePiece(piece, middleOf(piece.domain)), 0.0};
+    LinearModel model{evaluatePiece(piece, middleOf(piece.domain)), 0.0, 0.0};
     const auto farthest = [](const Derivative& derivative, const Vec3d& from) {
         double squared = 0.0;
         for (const Vec3d& v : derivative.all()) {
@@ -297,9 +297,22 @@ LinearModel linearize(const BezierPiece& piece) {
         }
         return squared;
     };
-    model.deviation =
-        std::sqrt(farthest(alongU(piece), model.middle.du) + farthest(alongV(piece), model.middle.dv));
+    model.deviationU = std::sqrt(farthest(alongU(piece), model.middle.du));
+    model.deviationV = std::sqrt(farthest(alongV(piece), model.middle.dv));
     return model;
+}
+
+Vec2d clampToDomain(PatchDomain domain, const Vec2d& st, double margin) {
+    if (domain == PatchDomain::quad) {
+        return glm::clamp(st, Vec2d(-margin), Vec2d(1.0 + margin));
+    }
+    Vec2d p = glm::max(st, Vec2d(-margin));
+    const double excess = p.x + p.y - (1.0 + margin);
+    if (excess > 0.0) {
+        p.x = std::clamp(p.x - 0.5 * excess, -margin, 1.0 + 2.0 * margin);
+        p.y = 1.0 + margin - p.x;
+    }
+    return p;
 }
 
 bool bendsAway(const BezierPiece& piece, const NormalCone& normals, double sign, double tolerance) {

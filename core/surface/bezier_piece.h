@@ -57,11 +57,12 @@ Box boundPiece(const BezierPiece& piece);
 /// cone below a right angle about those holds them all; otherwise every direction.
 NormalCone boundNormals(const BezierPiece& piece);
 
-/// First-order model about the middle of the domain, and how far the derivatives stray from it: the square
-/// root of the sum over du and dv of the largest squared distance of a control vector.
+/// First-order model about the middle of the domain, and how far the derivatives stray from those there: the
+/// largest distances of control vectors of du and of dv.
 struct LinearModel {
     Tangents middle;
-    double deviation = 0.0;
+    double deviationU = 0.0;
+    double deviationV = 0.0;
 };
 LinearModel linearize(const BezierPiece& piece);
 
@@ -69,6 +70,9 @@ LinearModel linearize(const BezierPiece& piece);
 constexpr Vec2d middleOf(PatchDomain domain) {
     return domain == PatchDomain::quad ? Vec2d(0.5) : Vec2d(1.0 / 3.0);
 }
+
+/// A parameter brought into the domain, or to `margin` from it.
+Vec2d clampToDomain(PatchDomain domain, const Vec2d& st, double margin);
 
 /// Whether the surface of the piece bends away from every normal within `normals` (sign 1), or towards it
 /// (sign -1), in every direction of its parameters: its second derivatives along the normal form a matrix

@@ -104,10 +104,10 @@ class Search {
 
     enum class Verdict : std::uint8_t { decided, undecided };
 
-    bool isInside(const Vec2d& st, double margin) const {
-        return st.x >= -margin && st.y >= -margin &&
-               (tree_.domain() == PatchDomain::quad ? st.x <= 1.0 + margin && st.y <= 1.0 + margin
-                                                    : st.x + st.y <= 1.0 + 2.0 * margin);
+    bool isInside(const Vec2d& st, const Vec2d& margin) const {
+        return st.x >= -margin.x && st.y >= -margin.y &&
+               (tree_.domain() == PatchDomain::quad ? st.x <= 1.0 + margin.x && st.y <= 1.0 + margin.y
+                                                    : st.x + st.y <= 1.0 + margin.x + margin.y);
     }
 
     // The part's only root, if its model allows to say so.
@@ -117,18 +117,25 @@ class Search {
         const Vec2d fu = across(model.middle.du);
         const Vec2d fv = across(model.middle.dv);
         const double det = fu.x * fv.y - fu.y * fv.x;
-        const double size = std::sqrt(glm::dot(fu, fu) + glm::dot(fv, fv));
-        if (!(model.deviation * size <= kContraction * std::abs(det))) {
+        // In the norm max(|fu| |u|, |fv| |v|) what the inverse of the linear model makes of the surface
+        // differs from the identity by this much at most.
+        const double lengthU = glm::length(fu);
+        const double lengthV = glm::length(fv);
+        const double stray = lengthV * model.deviationU + lengthU * model.deviationV;
+        if (!(stray <= kContraction * std::abs(det))) {
             return Verdict::undecided;
         }
-        // The root is no farther from the linear model's than the deviation times the domain's radius.
-        const double contraction = model.deviation * size / std::abs(det);
+        // So the root is no farther from the linear model's than that, times how far it may be from the
+        // middle.
+        const double reach = 0.67 * stray / std::abs(det) * std::max(lengthU, lengthV);
         Vec2d st = middleOf(tree_.domain()) - Vec2d(fv.y * f.x - fv.x * f.y, fu.x * f.y - fu.y * f.x) / det;
-        if (!isInside(st, contraction * 0.75 + kOverlap)) {
+        if (!isInside(st, {reach / lengthU + kOverlap, reach / lengthV + kOverlap})) {
             return Verdict::decided;
         }
+        // Outside of the part nothing is known of it.
+        st = clampToDomain(tree_.domain(), st, kOverlap);
         const BezierPiece& piece = tree_.piece(facet.piece);
-        for (int i = 0; i < 12; ++i) {
+        for (int i = 0; i < 20; ++i) {
             const Tangents p = evaluatePiece(piece, inPiece.at(st));
             const Vec3d offset = p.position - origin_;
             const Vec2d g = across(offset);
@@ -139,19 +146,22 @@ class Search {
                 return Verdict::undecided;
             }
             const Vec2d step = Vec2d(gv.y * g.x - gv.x * g.y, gu.x * g.y - gu.y * g.x) / slope;
-            st -= step;
             const double length = std::abs(step.x) + std::abs(step.y);
             if (length < 1e-6) {
                 // What is left is of the order of the square of the step.
-                if (isInside(st, kOverlap)) {
+                st -= step;
+                if (isInside(st, Vec2d(kOverlap))) {
                     const Vec3d met = offset - step.x * inPiece.du.x * p.du - step.y * inPiece.dv.y * p.dv;
                     accept(glm::dot(met, direction_) * inverseSquare_, facet.patch, inPatch.at(st));
                 }
                 return Verdict::decided;
             }
-            if (!(length < 4.0)) {
-                return Verdict::undecided;
+            const Vec2d next = clampToDomain(tree_.domain(), st - step, kOverlap);
+            if (glm::distance(next, st) < 1e-9) {
+                // At the border, and the way to what is met leads out.
+                return Verdict::decided;
             }
+            st = next;
         }
         return Verdict::undecided;
     }

@@ -12,9 +12,10 @@ namespace fluxwalk::surface {
 namespace {
 
 /// Facets stray from their linear model by this part of what would make it fail to name a point, seen along
-/// the normal; and pieces are quartered at most so often for it (degenerate ones never become flat).
+/// the normal; but pieces are quartered for it no further than this below their patch (skew ones never become
+/// flat).
 constexpr double kFlat = 0.2;
-constexpr unsigned kMaxFacetLevels = 4;
+constexpr unsigned kMaxFacetLevels = 3;
 
 /// Quarter of a domain that holds a parameter.
 unsigned quarterAt(PatchDomain domain, const Vec2d& st) {
@@ -38,26 +39,13 @@ Vec2d intoQuarter(const ParameterMap& quarter, const Vec2d& st) {
 bool isFlat(const LinearModel& model) {
     const Vec3d& du = model.middle.du;
     const Vec3d& dv = model.middle.dv;
-    const double size = std::sqrt(glm::dot(du, du) + glm::dot(dv, dv));
-    return model.deviation * size <= kFlat * glm::length(glm::cross(du, dv));
+    return glm::length(dv) * model.deviationU + glm::length(du) * model.deviationV <=
+           kFlat * glm::length(glm::cross(du, dv));
 }
 
 double squaredDistance(const Box& box, const Vec3d& p) {
     const Vec3d outside = glm::max(glm::max(box.lower - p, p - box.upper), Vec3d(0.0));
     return glm::dot(outside, outside);
-}
-
-Vec2d clampToDomain(PatchDomain domain, Vec2d p) {
-    if (domain == PatchDomain::quad) {
-        return glm::clamp(p, Vec2d(0.0), Vec2d(1.0));
-    }
-    p = glm::max(p, Vec2d(0.0));
-    const double excess = p.x + p.y - 1.0;
-    if (excess > 0.0) {
-        p.x = std::clamp(p.x - 0.5 * excess, 0.0, 1.0);
-        p.y = 1.0 - p.x;
-    }
-    return p;
 }
 
 }  // namespace
@@ -110,14 +98,14 @@ void PieceTree::insert(const LimitPiece& piece, std::uint32_t index) {
     nodes_[node].piece = index;
 }
 
-// `levels` counts the quarterings below the piece.
+// `levels` counts the quarterings below the patch.
 void PieceTree::refine(std::uint32_t node, const Facet& part, unsigned levels) {
     if (nodes_[node].piece != kNone) {
         Facet facet = part;
         facet.piece = nodes_[node].piece;
         const BezierPiece net = restrictPiece(pieces_[facet.piece], facet.inPiece);
         facet.model = linearize(net);
-        if (isFlat(facet.model) || levels == kMaxFacetLevels) {
+        if (isFlat(facet.model) || levels >= kMaxFacetLevels) {
             Node& leaf = nodes_[node];
             leaf.box = boundPiece(net);
             leaf.normals = boundNormals(net);
@@ -141,7 +129,7 @@ void PieceTree::refine(std::uint32_t node, const Facet& part, unsigned levels) {
         if (inPiece) {
             child.inPiece = part.inPiece.then(quarter);
         }
-        refine(first + k, child, inPiece ? levels + 1 : 0);
+        refine(first + k, child, levels + 1);
     }
     summarize(node);
 }
@@ -379,7 +367,7 @@ Vec2d PieceTree::locate(std::uint32_t patch, const Vec3d& position) const {
             }
             const double x = glm::dot(du, away);
             const double y = glm::dot(dv, away);
-            const Vec2d next = clampToDomain(domain_, st + Vec2d(c * x - b * y, a * y - b * x) / det);
+            const Vec2d next = clampToDomain(domain_, st + Vec2d(c * x - b * y, a * y - b * x) / det, 0.0);
             if (glm::distance(next, st) < 1e-15) {
                 break;
             }
