@@ -15,7 +15,7 @@ namespace {
 /// the normal; but pieces are quartered for it no further than this below their patch (skew ones never become
 /// flat).
 constexpr double kFlat = 0.2;
-constexpr unsigned kMaxFacetLevels = 3;
+constexpr unsigned kMaxFacetLevels = 4;
 
 /// Quarter of a domain that holds a parameter.
 unsigned quarterAt(PatchDomain domain, const Vec2d& st) {
