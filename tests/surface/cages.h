@@ -120,6 +120,22 @@ inline ControlCage openLoopCage() {
     return cage;
 }
 
+/// A closed double cone of triangles about vertices 0 and 1.
+inline ControlCage wheelCage(std::uint32_t sides) {
+    ControlCage cage;
+    cage.positions = {{0, 1, 0}, {0, -1, 0}};
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const double a = 2.0 * base::kPi * i / sides;
+        cage.positions.emplace_back(std::cos(a), 0.0, -std::sin(a));
+    }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t next = 2 + (i + 1) % sides;
+        addFace(cage, {2 + i, next, 0});
+        addFace(cage, {next, 2 + i, 1});
+    }
+    return cage;
+}
+
 /// Rotation, three scales and a shift; with a mirror.
 inline base::Mat4d skewMap(bool mirrored) {
     const double c = std::cos(.7);
