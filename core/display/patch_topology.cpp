@@ -53,13 +53,18 @@ class PatchTopology::Builder {
         const bool straight = surface.isPlanar(patch);
         for (std::uint32_t i = 0; i < q.cornerCount; ++i) {
             const std::uint32_t j = (i + 1) % q.cornerCount;
-            const Vec3d middle =
-                straight
-                    ? 0.5 * (topology_.corners_[corner[i]] + topology_.corners_[corner[j]])
-                    : surface.evaluate(patch, surface.splitPoint(patch, whole.corners[i], whole.corners[j]))
-                          .position;
+            const Vec2d split = surface.splitPoint(patch, whole.corners[i], whole.corners[j]);
+            const Vec3d middle = straight
+                                     ? 0.5 * (topology_.corners_[corner[i]] + topology_.corners_[corner[j]])
+                                     : surface.evaluate(patch, split).position;
             q.sides[i] = addEdge(corner[i], corner[j], canonical(middle), straight);
-            ++topology_.edges_[q.sides[i].edge].patchCount;
+            if (++topology_.edges_[q.sides[i].edge].patchCount == 1 && !straight) {
+                const auto between = [&](const Vec2d& a, const Vec2d& b) {
+                    return canonical(surface.evaluate(patch, surface.splitPoint(patch, a, b)).position);
+                };
+                quartersOf_[q.sides[i].edge] = {between(whole.corners[i], split),
+                                                between(split, whole.corners[j])};
+            }
         }
     }
 
@@ -73,7 +78,11 @@ class PatchTopology::Builder {
             const Edge edge = topology_.edges_[e];
             const Vec3d from = topology_.corners_[edge.from];
             const Vec3d to = topology_.corners_[edge.to];
-            if (!edge.straight || edge.patchCount > 1 || glm::distance(from, to) < 16.0 * tolerance) {
+            if (!edge.straight) {
+                cutCurved(e);
+                continue;
+            }
+            if (edge.patchCount > 1 || glm::distance(from, to) < 16.0 * tolerance) {
                 continue;
             }
             const std::uint32_t corner = cornerNear(edge.middle, tolerance);
@@ -89,6 +98,21 @@ class PatchTopology::Builder {
     }
 
   private:
+    // A curved edge is cut where its middle is a corner, as of subdivision surfaces next to faces of other
+    // than four corners.
+    void cutCurved(std::uint32_t e) {
+        const Edge edge = topology_.edges_[e];
+        const auto corner = cornerOf_.find(edge.middle);
+        const auto quarters = quartersOf_.find(e);
+        if (edge.patchCount != 1 || corner == cornerOf_.end() || quarters == quartersOf_.end()) {
+            return;
+        }
+        const EdgeUse first = addEdge(edge.from, corner->second, quarters->second[0], false);
+        const EdgeUse second = addEdge(corner->second, edge.to, quarters->second[1], false);
+        topology_.edges_[e].middleCorner = corner->second;
+        topology_.edges_[e].halves = {first, second};
+    }
+
     std::uint32_t addCorner(const Vec3d& position) {
         const auto number = static_cast<std::uint32_t>(topology_.corners_.size());
         const auto [it, isNew] = cornerOf_.try_emplace(position, number);
@@ -175,6 +199,8 @@ class PatchTopology::Builder {
     PatchTopology& topology_;
     std::unordered_map<Vec3d, std::uint32_t, PositionHash> cornerOf_;
     std::unordered_map<std::uint64_t, std::uint32_t> edgeOf_;
+    /// Middles of the halves of curved edges.
+    std::unordered_map<std::uint32_t, std::array<Vec3d, 2>> quartersOf_;
     std::unordered_map<std::uint64_t, std::uint32_t> firstInCell_;
     std::vector<std::uint32_t> nextInCell_;
 };

@@ -32,7 +32,7 @@ constexpr GridPoint middleOf(const GridPoint& a, const GridPoint& b) {
 /// Corners are one where their positions are bitwise equal; edges are one where their ends and middles are.
 /// Where a corner of one patch lies in the middle of another's straight, otherwise free edge (within 2e-6 of
 /// the surface's largest coordinate), and so on in the halves, both halves of that edge are edges on their
-/// own, so that meshes close there too.
+/// own, so that meshes close there too. Likewise where it is the middle of a curved one, bitwise.
 class PatchTopology {
   public:
     explicit PatchTopology(const surface::Surface& surface);

@@ -187,9 +187,6 @@ const Kind* findKind(const std::string& name) {
 
 bool hasExactSurface(GltfModel& model, const PlacedNode& node) {
     const tinygltf::Value& extras = extrasOf(model, node);
-    if (extras.Has("fluxwalk_subdivision")) {
-        model.warnings.add("fluxwalk_subdivision is not supported; the control mesh is used", node.place);
-    }
     if (!extras.Has("fluxwalk_surface")) {
         return false;
     }

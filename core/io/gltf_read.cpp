@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/io/gltf_cage.h"
 #include "core/io/gltf_exact.h"
 #include "core/io/gltf_lights.h"
 #include "core/io/gltf_materials.h"
@@ -17,9 +18,10 @@ namespace fluxwalk::io {
 namespace {
 
 /// Extensions that are read, or whose absence of effect is named where they are used.
-constexpr std::array<std::string_view, 6> kKnownExtensions{
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_transmission",
-    "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
+constexpr std::array<std::string_view, 7> kKnownExtensions{
+    "FB_ngon_encoding",           "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_materials_transmission", "KHR_materials_unlit", "KHR_mesh_quantization",
+    "KHR_texture_transform"};
 
 /// Builds the objects of a scene, one for each primitive that a node uses.
 class ObjectBuilder {
@@ -37,11 +39,11 @@ class ObjectBuilder {
         }
         const tinygltf::Mesh& mesh = model_.at(model_.data.meshes, source.mesh, node.place);
         const std::string name = nameOf(model_, node, mesh.name);
+        if (!mesh.primitives.empty() && isControlCage(model_, node) && addSubdivision(node, mesh, name)) {
+            return;
+        }
         if (!mesh.primitives.empty() && hasExactSurface(model_, node)) {
-            if (mesh.primitives.size() > 1) {
-                model_.warnings.add("an exact surface has one material, that of the first primitive",
-                                    node.place);
-            }
+            nameOneMaterial(mesh, node);
             if (auto surface = readExactSurface(model_, node)) {
                 add(name, std::move(surface), materialOf(mesh.primitives[0], node));
             }
@@ -64,6 +66,26 @@ class ObjectBuilder {
     }
 
   private:
+    void nameOneMaterial(const tinygltf::Mesh& mesh, const PlacedNode& node) {
+        if (mesh.primitives.size() > 1) {
+            model_.warnings.add("an exact surface has one material, that of the first primitive", node.place);
+        }
+    }
+
+    // False where the mesh is no control cage.
+    bool addSubdivision(const PlacedNode& node, const tinygltf::Mesh& mesh, const std::string& name) {
+        const std::uint64_t before = trianglesLeft_;
+        const std::uint32_t material = materialOf(mesh.primitives[0], node);
+        auto surface = readSubdivision(model_, node, scene_.materials[material], trianglesLeft_);
+        if (surface == nullptr) {
+            trianglesLeft_ = before;
+            return false;
+        }
+        nameOneMaterial(mesh, node);
+        add(name, std::move(surface), material);
+        return true;
+    }
+
     void add(const std::string& name, std::shared_ptr<const surface::Surface> surface,
              std::uint32_t material) {
         // Names are keys elsewhere: each is used once.

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/surface/subdivision_surface.h"
 #include "tests/display/display_scenes.h"
 #include "tests/display/mesh_checks.h"
+#include "tests/surface/cages.h"
 
 namespace fluxwalk::display {
 namespace {
@@ -61,6 +63,21 @@ TEST(PatchTopology, CornersInTheMiddleOfFreeEdgesCutThem) {
         EXPECT_EQ(report.overused, 0u);
         EXPECT_EQ(report.eulerCharacteristic(), 1) << "seed " << seed;
         EXPECT_NEAR(totalArea(*meshes.meshes[0]), 1.5 * (0.8371 * 0.8371 + 0.5471 * 0.5471), 1e-4);
+    }
+}
+
+// A subdivision surface with faces of three, four and five corners: quads lie along two sub-faces of others.
+TEST(PatchTopology, CurvedEdgesAreCutWhereTheirMiddleIsACorner) {
+    const surface::SubdivisionSurface body(test::mixedCage());
+    const PatchTopology topology(body);
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const auto leaves = makeLeaves(
+            body, [](const Vec3d& p) { return p.x; }, SplitRandomly{seed, 4, 0.6}, 1);
+        const auto meshes = buildDisplayMeshes(topology, 0, 0, leaves, MeshOptions{});
+        const EdgeReport report = checkEdges(*meshes.meshes[0]);
+        EXPECT_EQ(report.overused, 0u);
+        EXPECT_TRUE(report.open.empty()) << "seed " << seed;
+        EXPECT_EQ(report.eulerCharacteristic(), 2) << "seed " << seed;
     }
 }
 

@@ -248,9 +248,8 @@ TEST_F(GltfScene, ReadsASphereInsteadOfItsStandIn) {
     fixture_.addNode(
         {{"mesh", mesh}, {"extras", {{"fluxwalk_surface", "sphere"}, {"fluxwalk_inside", true}}}});
     fixture_.addNode({{"mesh", mesh}, {"extras", {{"fluxwalk_surface", "teapot"}}}});
-    fixture_.addNode({{"mesh", mesh}, {"extras", {{"fluxwalk_subdivision", "loop"}}}});
     const scene::Scene scene = read();
-    ASSERT_EQ(scene.objects.size(), 4u);
+    ASSERT_EQ(scene.objects.size(), 3u);
     EXPECT_EQ(scene.objects[0].surface->kind(), "sphere");
     EXPECT_NEAR(areaOf(scene.objects[0]), 4.0 * base::kPi, 1e-9);
     expectNear(scene.objects[0].surface->bounds().center(), {1, 2, 3});
@@ -260,7 +259,6 @@ TEST_F(GltfScene, ReadsASphereInsteadOfItsStandIn) {
     EXPECT_LT(glm::dot(point.normal, point.position), 0.0);
     EXPECT_EQ(scene.objects[2].surface->kind(), "polygon mesh");
     EXPECT_TRUE(test::hasWarning(scene, "fluxwalk_surface 'teapot' is not supported"));
-    EXPECT_TRUE(test::hasWarning(scene, "fluxwalk_subdivision is not supported"));
 }
 
 TEST_F(GltfScene, NamesWhatItCannotExpress) {

@@ -1,0 +1,139 @@
+#include "core/surface/region_clip.h"
+
+#include <cmath>
+
+#include "core/surface/region.h"
+
+namespace fluxwalk::surface {
+
+namespace {
+
+/// Distance from side k of a domain, positive inside: u, v, and 1 - u and 1 - v or 1 - u - v.
+double insideSide(PatchDomain domain, std::size_t side, const Vec2d& p) {
+    switch (side) {
+        case 0:
+            return p.x;
+        case 1:
+            return p.y;
+        case 2:
+            return domain == PatchDomain::quad ? 1.0 - p.x : 1.0 - p.x - p.y;
+        default:
+            return 1.0 - p.y;
+    }
+}
+
+constexpr std::size_t sideCount(PatchDomain domain) {
+    return domain == PatchDomain::quad ? 4 : 3;
+}
+
+/// Rounding of parameters that are no dyadic fractions.
+constexpr double kRounding = 1e-12;
+
+}  // namespace
+
+Region mapInto(const ParameterMap& part, const Region& region) {
+    Region result = region;
+    for (Vec2d& corner : result.corners) {
+        corner = part.inverse(corner);
+    }
+    return result;
+}
+
+bool coversDomain(const Region& region, PatchDomain domain) {
+    const Region whole = wholePatch(domain);
+    for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
+        const Vec2d& a = region.corners[i];
+        const Vec2d edge = region.corners[(i + 1) % region.cornerCount] - a;
+        for (std::uint32_t k = 0; k < whole.cornerCount; ++k) {
+            const Vec2d p = whole.corners[k] - a;
+            if (edge.x * p.y - edge.y * p.x < 0.0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool liesInDomain(const Region& region, PatchDomain domain) {
+    for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
+        for (std::size_t side = 0; side < sideCount(domain); ++side) {
+            if (insideSide(domain, side, region.corners[i]) < -kRounding) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool overlapsDomain(const Region& region, PatchDomain domain) {
+    for (std::size_t side = 0; side < sideCount(domain); ++side) {
+        bool anyInside = false;
+        for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
+            anyInside = anyInside || insideSide(domain, side, region.corners[i]) > kRounding;
+        }
+        if (!anyInside) {
+            return false;
+        }
+    }
+    if (domain == PatchDomain::quad) {
+        return true;
+    }
+    // The triangle's own corners do not reach past u = 1 and v = 1; sides of regions may lie there.
+    for (const bool alongU : {true, false}) {
+        bool anyInside = false;
+        for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
+            const Vec2d& p = region.corners[i];
+            anyInside = anyInside || (alongU ? p.x : p.y) < 1.0 - kRounding;
+        }
+        if (!anyInside) {
+            return false;
+        }
+    }
+    return true;
+}
+
+ClippedRegion clipToDomain(const Region& region, PatchDomain domain) {
+    ClippedRegion polygon;
+    for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
+        polygon.corners[polygon.count++] = region.corners[i];
+    }
+    for (std::size_t side = 0; side < sideCount(domain); ++side) {
+        ClippedRegion clipped;
+        for (std::size_t i = 0; i < polygon.count; ++i) {
+            const Vec2d& a = polygon.corners[i];
+            const Vec2d& b = polygon.corners[(i + 1) % polygon.count];
+            const double insideA = insideSide(domain, side, a);
+            const double insideB = insideSide(domain, side, b);
+            if (insideA >= 0.0) {
+                clipped.corners[clipped.count++] = a;
+            }
+            if ((insideA > 0.0 && insideB < 0.0) || (insideA < 0.0 && insideB > 0.0)) {
+                clipped.corners[clipped.count++] = a + insideA / (insideA - insideB) * (b - a);
+            }
+        }
+        polygon = clipped;
+    }
+    return polygon;
+}
+
+double integrateArea(const BezierPiece& piece, const Region& polygon) {
+    // The map to triangles has a root in s: s = x^2 makes it smooth.
+    const bool isTriangle = polygon.cornerCount == 3;
+    constexpr std::array<double, 5> kNodes{0.046910077030668004, 0.23076534494715845, 0.5,
+                                           0.76923465505284155, 0.95308992296933200};
+    constexpr std::array<double, 5> kWeights{0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                             0.23931433524968324, 0.11846344252809454};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kNodes.size(); ++i) {
+        for (std::size_t j = 0; j < kNodes.size(); ++j) {
+            const double s = isTriangle ? kNodes[i] * kNodes[i] : kNodes[i];
+            const double slope = isTriangle ? 2.0 * kNodes[i] : 1.0;
+            const RegionPoint at = mapToRegion(polygon, {s, kNodes[j]});
+            const Tangents p = evaluatePiece(piece, at.uv);
+            sum += kWeights[i] * kWeights[j] * slope * at.jacobian * glm::length(glm::cross(p.du, p.dv));
+        }
+    }
+    return sum;
+}
+
+}  // namespace fluxwalk::surface
