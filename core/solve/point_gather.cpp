@@ -186,7 +186,8 @@ class PointGather {
         for (unsigned i = 0; i < kSide * kSide; ++i) {
             const Vec2d jitter = random.next2();
             const double sine = std::sqrt((i % kSide + jitter.x) / kSide);
-            const double angle = 2.0 * base::kPi * (i / kSide + jitter.y) / kSide;
+            const unsigned row = i / kSide;
+            const double angle = 2.0 * base::kPi * (row + jitter.y) / kSide;
             const Vec3d direction = sine * (std::cos(angle) * across + std::sin(angle) * along) +
                                     std::sqrt(1.0 - sine * sine) * n_;
             if (direction.y > 0.0) {

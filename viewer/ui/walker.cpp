@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/photometry.h"
 
@@ -20,7 +21,7 @@ constexpr double kHighestEyes = 2.5;
 
 }  // namespace
 
-Walker::Walker(const scene::Camera& camera, const base::Box& bounds) : camera_(camera) {
+Walker::Walker(scene::Camera camera, const base::Box& bounds) : camera_(std::move(camera)) {
     const double diagonal = bounds.diagonal();
     if (diagonal > 0.0) {
         // A person's pace in a building; small models and landscapes are crossed in about ten seconds.

@@ -32,7 +32,7 @@ using FindFloor = std::function<std::optional<double>(const base::Vec3d&)>;
 class Walker {
   public:
     /// Starts at `camera`. Speeds follow the scene's size.
-    Walker(const scene::Camera& camera, const base::Box& bounds);
+    Walker(scene::Camera camera, const base::Box& bounds);
 
     void jumpTo(const scene::Camera& camera);
     /// Moves by `seconds` of input. Returns whether the camera changed.
