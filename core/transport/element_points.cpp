@@ -55,9 +55,9 @@ LocalPoints localPoints(std::uint32_t cornerCount) {
 }
 
 void setLane(base::Lanes3& v, int lane, const Vec3d& p) {
-    v.x[lane] = p.x;
-    v.y[lane] = p.y;
-    v.z[lane] = p.z;
+    v.x.set(lane, p.x);
+    v.y.set(lane, p.y);
+    v.z.set(lane, p.z);
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id
         sum += w;
     }
     for (int i = 0; i < base::kLanes; ++i) {
-        e.weight[i] = weight[static_cast<std::size_t>(i)] / sum;
+        e.weight.set(i, weight[static_cast<std::size_t>(i)] / sum);
     }
     return e;
 }
@@ -142,12 +142,12 @@ DensePoints makeDensePoints(const ElementPoints& element) {
             }
             weight *= planarMeasure(element, s, t);
             setLane(dense.position[block], lane, planarPoint(element, s, t));
-            dense.weight[block][lane] = weight;
+            dense.weight[block].set(lane, weight);
             sum += weight;
         }
     }
     for (Lanes& w : dense.weight) {
-        w /= sum;
+        w = w / base::splat(sum);
     }
     return dense;
 }

@@ -74,8 +74,8 @@ FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std:
     for (std::uint32_t k = 0; k < count; ++k) {
         d[k] = splat3(corners[k]) - x;
         const Lanes h = dot(n, d[k]);
-        below |= h < -tolerance;
-        above |= h > tolerance;
+        below |= h < splat(-tolerance);
+        above |= h > splat(tolerance);
     }
     Lanes sum = splat(0.0);
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -87,13 +87,13 @@ FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std:
         sum -= dot(n, c) * angle / base::maxLanes(s, splat(1e-300));
     }
     Lanes factor = base::maxLanes(sum * (1.0 / (2.0 * kPi)), splat(0.0));
-    factor = above ? factor : splat(0.0);
+    factor = base::select(above, factor, splat(0.0));
     const LaneMask straddling = above & below;
     if (base::anyLane(straddling)) {
         for (int i = 0; i < kLanes; ++i) {
-            if (straddling[i] != 0) {
-                factor[i] =
-                    clippedPointFactor({x.x[i], x.y[i], x.z[i]}, {n.x[i], n.y[i], n.z[i]}, corners, count);
+            if (straddling[i]) {
+                factor.set(i, clippedPointFactor({x.x[i], x.y[i], x.z[i]}, {n.x[i], n.y[i], n.z[i]}, corners,
+                                                 count));
             }
         }
     }

@@ -174,8 +174,8 @@ TEST(AngleLanes, isAccurateEverywhere) {
             const double angle =
                 i % 2 == 0 ? base::kPi * random.next() : (i % 4 == 1 ? small : base::kPi - small);
             const double size = std::exp2(80.0 * random.next() - 40.0);
-            sine[i] = size * std::abs(std::sin(angle));
-            cosine[i] = size * std::cos(angle);
+            sine.set(i, size * std::abs(std::sin(angle)));
+            cosine.set(i, size * std::cos(angle));
             expected[static_cast<std::size_t>(i)] =
                 std::atan2(static_cast<long double>(sine[i]), static_cast<long double>(cosine[i]));
         }
