@@ -32,7 +32,6 @@ Cone::Cone(const base::Mat4d& worldFromLocal, double radiusBottom, double radius
                       {radiusBottom / std::max(radiusBottom, radiusTop), -0.5},
                       {radiusTop / std::max(radiusBottom, radiusTop), 0.5}, inside),
       growth_((radiusTop - radiusBottom) / std::max(radiusBottom, radiusTop)),
-      focus_(0.0),
       focusRadius_(0.5 * (radiusBottom + radiusTop) / std::max(radiusBottom, radiusTop)) {
     if (std::abs(growth_) > focusRadius_) {
         focus_ = -focusRadius_ / growth_;

@@ -21,7 +21,7 @@ class Cone : public RevolvedSegment {
     /// height is 1.
     double growth_;
     /// Height that rays are measured from, and the radius there: the apex where it is near.
-    double focus_;
+    double focus_ = 0.0;
     double focusRadius_;
 };
 

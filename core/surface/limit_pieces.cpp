@@ -202,7 +202,8 @@ class PieceReader {
                 break;
             case Far::PatchDescriptor::REGULAR:
                 for (std::size_t k = 0; k < 16; ++k) {
-                    const Vec2d node(static_cast<double>(k % 4) / 3.0, static_cast<double>(k / 4) / 3.0);
+                    const std::size_t row = k / 4;
+                    const Vec2d node(static_cast<double>(k % 4) / 3.0, static_cast<double>(row) / 3.0);
                     piece.bezier.points[k] = valueAt(array, index, toPatch(node));
                 }
                 for (std::size_t k = 0; k < 4; ++k) {

@@ -117,6 +117,14 @@ void drawSolution(const PanelInfo& info, solve::Options& options, PanelActions& 
     }
 }
 
+void drawRoundness(solve::Options& options, PanelActions& actions) {
+    beginRow(
+        "Roundness",
+        "Curved surfaces are shown by triangles whose true normals lie within this angle of a common axis: "
+        "smaller is rounder. Takes effect at once, without solving anew.");
+    actions.changedOptions |= slideLogarithmic("##angle", options.displayAngle, 0.5, 30.0, "%.2g degrees");
+}
+
 void drawExposure(ViewSettings& settings) {
     ExposureControl& control = settings.exposure;
     beginRow("Exposure",
@@ -222,6 +230,9 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
             drawExposure(settings);
         }
         if (beginSection("View")) {
+            if (info.session) {
+                drawRoundness(options, actions);
+            }
             drawMovement(info, settings, walker, actions);
         }
         if (beginSection("Statistics")) {
