@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/surface/quadrature.h"
 #include "core/surface/region.h"
 
 namespace fluxwalk::surface {
@@ -117,23 +118,10 @@ ClippedRegion clipToDomain(const Region& region, PatchDomain domain) {
 }
 
 double integrateArea(const BezierPiece& piece, const Region& polygon) {
-    // The map to triangles has a root in s: s = x^2 makes it smooth.
-    const bool isTriangle = polygon.cornerCount == 3;
-    constexpr std::array<double, 5> kNodes{0.046910077030668004, 0.23076534494715845, 0.5,
-                                           0.76923465505284155, 0.95308992296933200};
-    constexpr std::array<double, 5> kWeights{0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
-                                             0.23931433524968324, 0.11846344252809454};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kNodes.size(); ++i) {
-        for (std::size_t j = 0; j < kNodes.size(); ++j) {
-            const double s = isTriangle ? kNodes[i] * kNodes[i] : kNodes[i];
-            const double slope = isTriangle ? 2.0 * kNodes[i] : 1.0;
-            const RegionPoint at = mapToRegion(polygon, {s, kNodes[j]});
-            const Tangents p = evaluatePiece(piece, at.uv);
-            sum += kWeights[i] * kWeights[j] * slope * at.jacobian * glm::length(glm::cross(p.du, p.dv));
-        }
-    }
-    return sum;
+    return integrateOver(polygon, [&](const Vec2d& uv) {
+        const Tangents p = evaluatePiece(piece, uv);
+        return glm::length(glm::cross(p.du, p.dv));
+    });
 }
 
 }  // namespace fluxwalk::surface

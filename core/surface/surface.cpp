@@ -1,6 +1,6 @@
 #include "core/surface/surface.h"
 
-#include "core/surface/region.h"
+#include "core/surface/quadrature.h"
 
 namespace fluxwalk::surface {
 
@@ -9,23 +9,7 @@ Vec2d Surface::splitPoint(std::uint32_t /*patch*/, const Vec2d& a, const Vec2d& 
 }
 
 double Surface::area(std::uint32_t patch, const Region& region) const {
-    // 5 x 5 Gauss-Legendre points on the unit square. The map to triangles has a root in s: s = x^2 makes it
-    // smooth.
-    const bool isTriangle = region.cornerCount == 3;
-    constexpr std::array<double, 5> kNodes{0.046910077030668004, 0.23076534494715845, 0.5,
-                                           0.76923465505284155, 0.95308992296933200};
-    constexpr std::array<double, 5> kWeights{0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
-                                             0.23931433524968324, 0.11846344252809454};
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kNodes.size(); ++i) {
-        for (std::size_t j = 0; j < kNodes.size(); ++j) {
-            const double s = isTriangle ? kNodes[i] * kNodes[i] : kNodes[i];
-            const double slope = isTriangle ? 2.0 * kNodes[i] : 1.0;
-            const RegionPoint at = mapToRegion(region, {s, kNodes[j]});
-            sum += kWeights[i] * kWeights[j] * slope * at.jacobian * evaluate(patch, at.uv).jacobian;
-        }
-    }
-    return sum;
+    return integrateOver(region, [&](const Vec2d& uv) { return evaluate(patch, uv).jacobian; });
 }
 
 std::optional<double> Surface::exactKernel(bool /*back*/) const {
