@@ -133,7 +133,7 @@ TEST(ExposedPart, findsALinearFunctionOnWhatIsExposed) {
     const auto linear = [&](const transport::SurfaceSample& p) { return 2.0 + glm::dot(slope, p.local); };
     const transport::ElementSampler sampler(built.tree, floor);
     for (unsigned cell = 0; cell < 16; ++cell) {
-        if ((built.tree.shape(floor).exposedCells >> cell & 1u) != 0) {
+        if ((static_cast<unsigned>(built.tree.shape(floor).exposedCells) >> cell & 1u) != 0) {
             exposedMean += linear(sampler.inCell(cell)) / 12.0;
         }
     }
