@@ -112,7 +112,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     if (constant) {
         coupling = a.area * b.area * *constant;
     } else {
-        const PairFactor factor = computePairFactor(a, b);
+        const PairFactor factor = query.a == query.b ? computeSelfFactor(a) : computePairFactor(a, b);
         coupling = factor.coupling;
         out.gradientA = base::Vec2(factor.gradientA);
         out.gradientB = base::Vec2(factor.gradientB);

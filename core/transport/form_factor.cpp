@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -26,6 +27,8 @@ using base::splat;
 constexpr double kFar = 4.0;
 /// Pairs closer than this many times the larger radius use 4 x 4 receiver points.
 constexpr double kNear = 2.0;
+/// Least cosine at which all points of a curved source must show themselves, so that its contour stands for it.
+constexpr double kFacing = 0.1;
 
 FLUXWALK_INLINE Lanes3 splat3(const Vec3d& v) {
     return {splat(v.x), splat(v.y), splat(v.z)};
@@ -36,9 +39,9 @@ FLUXWALK_INLINE double sumLanes(Lanes v) {
 }
 
 // Lambert's formula for one point whose horizon cuts the polygon: clip, then sum over the edges.
-double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d, 4>& corners,
+double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d, 8>& corners,
                           std::uint32_t count) {
-    std::array<Vec3d, 8> clipped;
+    std::array<Vec3d, 16> clipped;
     std::uint32_t m = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vec3d a = corners[i] - x;
@@ -65,10 +68,11 @@ double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d
     return std::max(0.0, sum / (2.0 * kPi));
 }
 
-// Factor of a planar polygon seen from eight points. Corners run counter-clockwise seen from its front.
-FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std::array<Vec3d, 4>& corners,
+// Factor of what a closed polygon bounds, seen from eight points that all of it faces: it depends on the contour alone,
+// so the polygon need not be planar. Corners run counter-clockwise seen from the front.
+FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std::array<Vec3d, 8>& corners,
                                     std::uint32_t count, double tolerance) {
-    std::array<Lanes3, 4> d;
+    std::array<Lanes3, 8> d;
     auto below = LaneMask{};
     auto above = LaneMask{};
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -100,10 +104,11 @@ FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std:
     return factor;
 }
 
-// Factor of an element seen from eight points, by the source's cubature points; `soften` (m2) keeps the
-// kernel finite when near.
+// Factor of an element seen from eight points, by the source's cubature points. Each stands for a disc of `part` m2:
+// K / (1 + K) with K = part cos cos / (pi r2), which is exact on the disc's axis and leaves the kernel alone where it is
+// finite by itself, as between neighbours on a hollow surface.
 FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source,
-                                     double soften) {
+                                     double part) {
     Lanes sum = splat(0.0);
     for (int j = 0; j < 4; ++j) {
         const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
@@ -113,9 +118,41 @@ FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const Ele
         const Lanes there =
             -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
         const Lanes facing = base::maxLanes(here, splat(0.0)) * base::maxLanes(there, splat(0.0));
-        sum += source.weight[j] * facing / base::maxLanes(r2 * (kPi * r2 + soften), splat(1e-300));
+        sum += source.weight[j] * facing / base::maxLanes(kPi * r2 * r2 + part * facing, splat(1e-300));
     }
     return base::minLanes(source.area * sum, splat(1.0));
+}
+
+// Which of eight points all of a curved source faces.
+FLUXWALK_INLINE LaneMask facesAll(const Lanes3& x, const ElementPoints& source) {
+    LaneMask all = ~LaneMask{};
+    for (int j = 0; j < kLanes; ++j) {
+        const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
+                           source.position.z[j] - x.z};
+        const Lanes there =
+            -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
+        all &= (there > 0.0) & (there * there > kFacing * kFacing * dot(to, to));
+    }
+    return all;
+}
+
+// Factor of an element that is not far: by its contour where all of it faces the point, else by its cubature
+// points.
+FLUXWALK_INLINE Lanes nearFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source,
+                                 double tolerance, std::uint32_t& evaluations) {
+    LaneMask facing = ~LaneMask{};
+    Lanes factor = splat(0.0);
+    if (!source.isFlat) {
+        facing = facesAll(x, source);
+        factor = cubatureFactor(x, n, source, 0.25 * source.area);
+        evaluations += 32;
+    }
+    if (base::anyLane(facing)) {
+        const Lanes whole = polygonFactor(x, n, source.contour, source.contourCount, tolerance);
+        factor = facing ? whole : factor;
+        evaluations += 8 * source.contourCount;
+    }
+    return factor;
 }
 
 struct alignas(base::kLanesAlignment) OneWay {
@@ -136,24 +173,21 @@ FLUXWALK_INLINE OneWay summarize(Lanes factor, Lanes weight) {
 
 FLUXWALK_INLINE OneWay lookAt(const ElementPoints& receiver, const ElementPoints& source, bool far, bool near,
                               double tolerance, std::uint32_t& evaluations) {
-    if (far || !source.isPlanar) {
-        const double soften = far ? 0.0 : 0.25 * source.area;
+    if (far) {
         evaluations += 32;
-        return summarize(cubatureFactor(receiver.position, receiver.normal, source, soften), receiver.weight);
+        return summarize(cubatureFactor(receiver.position, receiver.normal, source, 0.0), receiver.weight);
     }
-    evaluations += 8 * source.cornerCount;
-    OneWay r = summarize(
-        polygonFactor(receiver.position, receiver.normal, source.corners, source.cornerCount, tolerance),
-        receiver.weight);
-    if (near && receiver.isPlanar && r.largest > 0.0) {
+    OneWay r = summarize(nearFactor(receiver.position, receiver.normal, source, tolerance, evaluations),
+                         receiver.weight);
+    if (near && receiver.isPlanar && source.isFlat && r.largest > 0.0) {
         const DensePoints dense = makeDensePoints(receiver);
         double mean = 0.0;
         for (std::size_t block = 0; block < 2; ++block) {
             mean +=
                 sumLanes(dense.weight[block] * polygonFactor(dense.position[block], receiver.normal,
-                                                             source.corners, source.cornerCount, tolerance));
+                                                             source.contour, source.contourCount, tolerance));
         }
-        evaluations += 16 * source.cornerCount;
+        evaluations += 16 * source.contourCount;
         r.mean = mean;
     }
     return r;
@@ -232,12 +266,12 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
     PairFactor result;
     result.evaluations = views.evaluations;
     // Points of the smaller element see the larger one's exact factor vary least, so they weigh more; where
-    // only one element is planar, its exact factor seen from the curved one counts alone.
+    // only one element is flat, its exact factor seen from the curved one counts alone.
     const double both = a.radius * a.radius + b.radius * b.radius;
     double weightA = b.radius * b.radius / both;
     double weightB = a.radius * a.radius / both;
-    if (!views.far && a.isPlanar != b.isPlanar) {
-        weightA = b.isPlanar ? 1.0 : 0.0;
+    if (!views.far && a.isFlat != b.isFlat) {
+        weightA = b.isFlat ? 1.0 : 0.0;
         weightB = 1.0 - weightA;
     }
     result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
@@ -290,12 +324,49 @@ PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
     return hasAvx2 ? computePairFactorAvx2(a, b) : computePairFactorBaseline(a, b);
 }
 
-double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {
-    if (source.isPlanar) {
-        return clippedPointFactor(x, normal, source.corners, source.cornerCount);
+PairFactor computeSelfFactor(const ElementPoints& e) {
+    PairFactor result;
+    double weights = 0.0;
+    double sum = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    double largest = 0.0;
+    for (int i = 0; i < kLanes; ++i) {
+        const Vec3d p(e.position.x[i], e.position.y[i], e.position.z[i]);
+        const Vec3d n(e.normal.x[i], e.normal.y[i], e.normal.z[i]);
+        for (int j = 0; j < i; ++j) {
+            const Vec3d to = Vec3d(e.position.x[j], e.position.y[j], e.position.z[j]) - p;
+            const Vec3d m(e.normal.x[j], e.normal.y[j], e.normal.z[j]);
+            const double r2 = glm::dot(to, to);
+            if (r2 <= 1e-12 * e.radius * e.radius) {
+                continue;  // corners that fall together, as at a pole
+            }
+            const double kernel =
+                std::max(0.0, glm::dot(n, to)) * std::max(0.0, -glm::dot(m, to)) / (kPi * r2 * r2);
+            least = std::min(least, kernel);
+            largest = std::max(largest, kernel);
+            sum += e.weight[i] * e.weight[j] * kernel;
+            weights += e.weight[i] * e.weight[j];
+            ++result.evaluations;
+        }
     }
-    const Lanes factor = cubatureFactor(splat3(x), splat3(normal), source, 0.25 * source.area);
-    return factor[0];
+    if (largest <= 0.0) {
+        return result;
+    }
+    // Where only corners see each other: a rough value that the oracle will not trust.
+    constexpr double kCornerShare = 1.0 / 64.0;
+    const double mean = std::max(sum / weights, kCornerShare * largest);
+    result.coupling = e.area * e.area * mean;
+    result.spreadA = result.spreadB = std::max(largest - mean, mean - least) / mean;
+    return result;
+}
+
+double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {
+    if (source.isFlat) {
+        return clippedPointFactor(x, normal, source.contour, source.contourCount);
+    }
+    const double tolerance = 1e-6 * (glm::distance(x, source.center) + source.radius);
+    std::uint32_t evaluations = 0;
+    return nearFactor(splat3(x), splat3(normal), source, tolerance, evaluations)[0];
 }
 
 }  // namespace fluxwalk::transport

@@ -30,9 +30,15 @@ LinearFit fitLinear(const ElementPoints& element, const std::array<double, base:
                     double mean);
 
 /// Exact point-to-polygon factors (Lambert's formula) averaged over both elements when near, 2 x 2 Gauss
-/// pairs when far; true normals and measure on curved elements. A pure function of the two, symmetric in
+/// pairs when far; true normals and measure on curved elements, whose contours take the place of polygons
+/// where all of them faces the other's points: what a point receives from a surface that it sees from the
+/// front alone depends on the contour only. A pure function of the two, symmetric in
 /// their roles. (ALGORITHMS 1.7; Cohen and Wallace 1993, chapter 4.)
 PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b);
+
+/// The same of an element with itself, from all pairs of its points: on a smooth hollow surface the kernel
+/// stays finite where they meet. Gradients are 0, the spread is the largest deviation of the kernel.
+PairFactor computeSelfFactor(const ElementPoints& element);
 
 /// Form factor from a point to an element: the irradiance at x per unit of the element's radiosity,
 /// unoccluded.
