@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -27,8 +26,6 @@ using base::splat;
 constexpr double kFar = 4.0;
 /// Pairs closer than this many times the larger radius use 4 x 4 receiver points.
 constexpr double kNear = 2.0;
-/// Least cosine at which all points of a curved source must show themselves, so that its contour stands for it.
-constexpr double kFacing = 0.1;
 
 FLUXWALK_INLINE Lanes3 splat3(const Vec3d& v) {
     return {splat(v.x), splat(v.y), splat(v.z)};
@@ -68,8 +65,8 @@ double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d
     return std::max(0.0, sum / (2.0 * kPi));
 }
 
-// Factor of what a closed polygon bounds, seen from eight points that all of it faces: it depends on the contour alone,
-// so the polygon need not be planar. Corners run counter-clockwise seen from the front.
+// Factor of what a closed polygon bounds, seen from eight points that all of it faces: it depends on the
+// contour alone, so the polygon need not be planar. Corners run counter-clockwise seen from the front.
 FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std::array<Vec3d, 8>& corners,
                                     std::uint32_t count, double tolerance) {
     std::array<Lanes3, 8> d;
@@ -104,9 +101,9 @@ FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std:
     return factor;
 }
 
-// Factor of an element seen from eight points, by the source's cubature points. Each stands for a disc of `part` m2:
-// K / (1 + K) with K = part cos cos / (pi r2), which is exact on the disc's axis and leaves the kernel alone where it is
-// finite by itself, as between neighbours on a hollow surface.
+// Factor of an element seen from eight points, by the source's cubature points. Each stands for a disc of
+// `part` m2: K / (1 + K) with K = part cos cos / (pi r2), which is exact on the disc's axis and leaves the
+// kernel alone where it is finite by itself, as between neighbours on a hollow surface.
 FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source,
                                      double part) {
     Lanes sum = splat(0.0);
@@ -131,7 +128,7 @@ FLUXWALK_INLINE LaneMask facesAll(const Lanes3& x, const ElementPoints& source) 
                            source.position.z[j] - x.z};
         const Lanes there =
             -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
-        all &= (there > 0.0) & (there * there > kFacing * kFacing * dot(to, to));
+        all &= (there > 0.0) & (there * there > kLeastFacing * kLeastFacing * dot(to, to));
     }
     return all;
 }
@@ -231,6 +228,14 @@ std::array<double, kLanes> toArray(Lanes v) {
 
 }  // namespace
 
+ViewWeights weighViews(const ElementPoints& a, const ElementPoints& b, bool isNear) {
+    if (isNear && a.isFlat != b.isFlat) {
+        return b.isFlat ? ViewWeights{1.0, 0.0} : ViewWeights{0.0, 1.0};
+    }
+    const double both = a.radius * a.radius + b.radius * b.radius;
+    return {b.radius * b.radius / both, a.radius * a.radius / both};
+}
+
 LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLanes>& values, double mean) {
     LinearFit fit;
     fit.mean = mean;
@@ -260,21 +265,14 @@ LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLane
 
 namespace {
 
-PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWays& views) {
+PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWays& views,
+                   const std::optional<double>& known = std::nullopt) {
     const OneWay& atA = views.atA;
     const OneWay& atB = views.atB;
     PairFactor result;
     result.evaluations = views.evaluations;
-    // Points of the smaller element see the larger one's exact factor vary least, so they weigh more; where
-    // only one element is flat, its exact factor seen from the curved one counts alone.
-    const double both = a.radius * a.radius + b.radius * b.radius;
-    double weightA = b.radius * b.radius / both;
-    double weightB = a.radius * a.radius / both;
-    if (!views.far && a.isFlat != b.isFlat) {
-        weightA = b.isFlat ? 1.0 : 0.0;
-        weightB = 1.0 - weightA;
-    }
-    result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
+    const ViewWeights weights = weighViews(a, b, !views.far);
+    result.coupling = weights.atA * (a.area * atA.mean) + weights.atB * (b.area * atB.mean);
     const bool touch = glm::distance(a.center, b.center) < a.radius + b.radius;
     if (touch && a.isPlanar && b.isPlanar && atA.largest > 0.0 && atB.largest > 0.0) {
         // In one order, as rounding depends on it.
@@ -285,6 +283,9 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
         const ElementPoints& other = isFirst ? b : a;
         result.coupling = polygonCoupling(std::span(one.corners.data(), one.cornerCount),
                                           std::span(other.corners.data(), other.cornerCount));
+    }
+    if (known) {
+        result.coupling = *known;
     }
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {
@@ -319,45 +320,10 @@ PairFactor computePairFactorAvx2(const ElementPoints& a, const ElementPoints& b)
     return combine(a, b, viewBothAvx2(a, b));
 }
 
-PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
+PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b,
+                             const std::optional<double>& coupling) {
     static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
-    return hasAvx2 ? computePairFactorAvx2(a, b) : computePairFactorBaseline(a, b);
-}
-
-PairFactor computeSelfFactor(const ElementPoints& e) {
-    PairFactor result;
-    double weights = 0.0;
-    double sum = 0.0;
-    double least = std::numeric_limits<double>::infinity();
-    double largest = 0.0;
-    for (int i = 0; i < kLanes; ++i) {
-        const Vec3d p(e.position.x[i], e.position.y[i], e.position.z[i]);
-        const Vec3d n(e.normal.x[i], e.normal.y[i], e.normal.z[i]);
-        for (int j = 0; j < i; ++j) {
-            const Vec3d to = Vec3d(e.position.x[j], e.position.y[j], e.position.z[j]) - p;
-            const Vec3d m(e.normal.x[j], e.normal.y[j], e.normal.z[j]);
-            const double r2 = glm::dot(to, to);
-            if (r2 <= 1e-12 * e.radius * e.radius) {
-                continue;  // corners that fall together, as at a pole
-            }
-            const double kernel =
-                std::max(0.0, glm::dot(n, to)) * std::max(0.0, -glm::dot(m, to)) / (kPi * r2 * r2);
-            least = std::min(least, kernel);
-            largest = std::max(largest, kernel);
-            sum += e.weight[i] * e.weight[j] * kernel;
-            weights += e.weight[i] * e.weight[j];
-            ++result.evaluations;
-        }
-    }
-    if (largest <= 0.0) {
-        return result;
-    }
-    // Where only corners see each other: a rough value that the oracle will not trust.
-    constexpr double kCornerShare = 1.0 / 64.0;
-    const double mean = std::max(sum / weights, kCornerShare * largest);
-    result.coupling = e.area * e.area * mean;
-    result.spreadA = result.spreadB = std::max(largest - mean, mean - least) / mean;
-    return result;
+    return combine(a, b, hasAvx2 ? viewBothAvx2(a, b) : viewBothBaseline(a, b), coupling);
 }
 
 double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {

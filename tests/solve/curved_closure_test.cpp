@@ -1,5 +1,6 @@
 #include <chrono>
 #include <iostream>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/curved_scenes.h"
@@ -35,14 +36,15 @@ TEST_P(CurvedClosure, rowsSumToOne) {
     for (std::uint32_t o = 0; o < problem->scene->objects.size(); ++o) {
         double m = 0, a = 0, s = 0;
         for (auto id : test::leavesOf(problem->hierarchy)) {
-            if (problem->hierarchy.name(id).object != o) continue;
+            if (problem->hierarchy.name(id).object != o)
+                continue;
             double w = problem->hierarchy.shape(id).exposedArea();
             a += w;
             m += w * (sums[base::index(id)] - 1);
             s += w * std::abs(sums[base::index(id)] - 1);
         }
-        std::cout << "   " << problem->scene->objects[o].name << " area " << a << " mean " << m / a << " size " << s / a
-                  << std::endl;
+        std::cout << "   " << problem->scene->objects[o].name << " area " << a << " mean " << m / a
+                  << " size " << s / a << std::endl;
     }
     EXPECT_LE(rows.meanSize, .001);
     EXPECT_LE(rows.percentile99, .01);

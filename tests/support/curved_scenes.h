@@ -121,14 +121,14 @@ inline std::ostream& operator<<(std::ostream& out, const CurvedScene& scene) {
 }
 
 inline void addRoom(Scene& scene) {
-    scene::addPolygons(scene, "room", 0,
-                       scene::boxFaces(Vec3d(-.6), Vec3d(.6), scene::kAllFaces, true));
+    scene::addPolygons(scene, "room", 0, scene::boxFaces(Vec3d(-.6), Vec3d(.6), scene::kAllFaces, true));
 }
 
 /// A closed room with one solid of each curved kind inside.
 inline std::vector<CurvedScene> roomsWithSolids() {
     const auto withRoom = [](std::string name, double leafArea, std::function<void(Scene&)> add) {
-        return CurvedScene{std::move(name), [add = std::move(add)](Scene& scene) {
+        return CurvedScene{std::move(name),
+                           [add = std::move(add)](Scene& scene) {
                                addRoom(scene);
                                add(scene);
                            },
@@ -138,14 +138,13 @@ inline std::vector<CurvedScene> roomsWithSolids() {
     return {
         withRoom("sphere", .02,
                  [=](Scene& s) { addCurved(s, "sphere", std::make_shared<surface::Sphere>(middle, .35)); }),
-        withRoom("cylinder", .02,
-                 [=](Scene& s) { addCappedCylinder(s, leaningAt(middle), .25, .6, false); }),
+        withRoom("cylinder", .02, [=](Scene& s) { addCappedCylinder(s, leaningAt(middle), .25, .6, false); }),
         withRoom("cone", .02,
                  [=](Scene& s) {
                      const Mat4d place = leaningAt(middle);
                      addCurved(s, "cone", std::make_shared<surface::Cone>(place, .35, 0.0, .6));
-                     addCurved(s, "base", std::make_shared<surface::Disk>(place * movedTo({0, -.3, 0}), .35,
-                                                                          0.0, true));
+                     addCurved(s, "base",
+                               std::make_shared<surface::Disk>(place * movedTo({0, -.3, 0}), .35, 0.0, true));
                  }),
         withRoom("torus", .02,
                  [=](Scene& s) {
@@ -153,8 +152,9 @@ inline std::vector<CurvedScene> roomsWithSolids() {
                  }),
         withRoom("vase", .02,
                  [=](Scene& s) {
-                     addCurved(s, "vase", std::make_shared<surface::SubdivisionSurface>(
-                                              transformCage(closedVaseCage(), leaningAt(middle))));
+                     addCurved(s, "vase",
+                               std::make_shared<surface::SubdivisionSurface>(
+                                   transformCage(closedVaseCage(), leaningAt(middle))));
                  }),
         withRoom("smoothUnion", .02,
                  [=](Scene& s) {
@@ -171,7 +171,10 @@ inline std::vector<CurvedScene> roomsWithSolids() {
 /// Curved shapes seen from inside.
 inline std::vector<CurvedScene> hollows() {
     return {
-        {"insideOfCylinder", [](Scene& s) { addCappedCylinder(s, leaningAt({1, 2, 3}), .5, 1.2, true); },
+        {"insideOfCylinder",
+         [](Scene& s) {
+             addCappedCylinder(s, leaningAt({1, 2, 3}), .5, 1.2, true);
+         },
          .01},
         {"insideOfTorus",
          [](Scene& s) {
@@ -180,8 +183,9 @@ inline std::vector<CurvedScene> hollows() {
          .01},
         {"insideOfVase",
          [](Scene& s) {
-             addCurved(s, "vase", std::make_shared<surface::SubdivisionSurface>(
-                                      transformCage(turnedInside(closedVaseCage()), leaningAt({1, 2, 3}))));
+             addCurved(s, "vase",
+                       std::make_shared<surface::SubdivisionSurface>(
+                           transformCage(turnedInside(closedVaseCage()), leaningAt({1, 2, 3}))));
          },
          .004},
     };
