@@ -163,6 +163,11 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     out.gradientB += base::Vec2(seen.gradientB);
     out.rays = seen.rays;
     out.isMixed = seen.isMixed;
+    if (constant && !out.isMixed) {
+        // A constant kernel has no spread, so a shadow that no ray met would never be looked for: it may take
+        // as much as one ray more (Laplace's rule of succession).
+        out.spreadA = out.spreadB = 1.0f / static_cast<float>(seen.rays + 2);
+    }
     return out;
 }
 

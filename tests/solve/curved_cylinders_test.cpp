@@ -69,9 +69,9 @@ TEST(CoaxialCylinders, longOnes) {
         sections.push_back({y, next});
         sections.push_back({-next, -y});
     }
-    for (double th : {3e-5, 1e-5}) {
+    for (auto [th, A] : {std::pair{1e-4, .02}, {3e-5, .02}}) {
         const auto t0 = std::chrono::steady_clock::now();
-        const auto problem = makeCylinders(sections, .1);
+        const auto problem = makeCylinders(sections, A);
         test::refine(*problem, th);
         test::converge(*problem);
         std::cout << th << " " << test::meanIrradiance(*problem, 0).g << " links "

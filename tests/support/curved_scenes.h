@@ -136,27 +136,27 @@ inline std::vector<CurvedScene> roomsWithSolids() {
     };
     const Vec3d middle(.03, -.02, .05);
     return {
-        withRoom("sphere", .02,
+        withRoom("sphere", .04,
                  [=](Scene& s) { addCurved(s, "sphere", std::make_shared<surface::Sphere>(middle, .35)); }),
-        withRoom("cylinder", .02, [=](Scene& s) { addCappedCylinder(s, leaningAt(middle), .25, .6, false); }),
-        withRoom("cone", .02,
+        withRoom("cylinder", .04, [=](Scene& s) { addCappedCylinder(s, leaningAt(middle), .25, .6, false); }),
+        withRoom("cone", .04,
                  [=](Scene& s) {
                      const Mat4d place = leaningAt(middle);
                      addCurved(s, "cone", std::make_shared<surface::Cone>(place, .35, 0.0, .6));
                      addCurved(s, "base",
                                std::make_shared<surface::Disk>(place * movedTo({0, -.3, 0}), .35, 0.0, true));
                  }),
-        withRoom("torus", .02,
+        withRoom("torus", .03,
                  [=](Scene& s) {
                      addCurved(s, "torus", std::make_shared<surface::Torus>(leaningAt(middle), .32, .12));
                  }),
-        withRoom("vase", .02,
+        withRoom("vase", .04,
                  [=](Scene& s) {
                      addCurved(s, "vase",
                                std::make_shared<surface::SubdivisionSurface>(
                                    transformCage(closedVaseCage(), leaningAt(middle))));
                  }),
-        withRoom("smoothUnion", .02,
+        withRoom("smoothUnion", .04,
                  [=](Scene& s) {
                      const auto balls = std::make_shared<const surface::SmoothUnion>(
                          std::vector<surface::Ball>{{{-.15, -.1, .05}, .22}, {{.14, .08, 0}, .2}});
@@ -175,19 +175,19 @@ inline std::vector<CurvedScene> hollows() {
          [](Scene& s) {
              addCappedCylinder(s, leaningAt({1, 2, 3}), .5, 1.2, true);
          },
-         .01},
+         .04},
         {"insideOfTorus",
          [](Scene& s) {
              addCurved(s, "torus", std::make_shared<surface::Torus>(leaningAt({1, 2, 3}), .5, .25, true));
          },
-         .01},
+         .025},
         {"insideOfVase",
          [](Scene& s) {
              addCurved(s, "vase",
                        std::make_shared<surface::SubdivisionSurface>(
                            transformCage(turnedInside(closedVaseCage()), leaningAt({1, 2, 3}))));
          },
-         .004},
+         .012},
     };
 }
 
