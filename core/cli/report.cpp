@@ -82,10 +82,10 @@ Json timesJson(const solve::StageTimes& t) {
 }
 
 Json auditJson(const solve::Audit& a) {
-    return {{"emitted", toArray(a.emitted)}, {"absorbed", toArray(a.absorbed)},
-            {"escaped", toArray(a.escaped)}, {"relativeDefect", a.relativeDefect()},
-            {"isClosed", a.isClosed},        {"rowDefectMean", a.rowDefectMean},
-            {"rowDefectP99", a.rowDefectP99}};
+    return {{"emitted", toArray(a.emitted)},  {"absorbed", toArray(a.absorbed)},
+            {"escaped", toArray(a.escaped)},  {"relativeDefect", a.relativeDefect()},
+            {"isClosed", a.isClosed},         {"rowDefectMean", a.rowDefectMean},
+            {"rowDefectP99", a.rowDefectP99}, {"pullDefect", a.pullDefect}};
 }
 
 /// Estimates are negative while unknown.
@@ -152,6 +152,10 @@ std::string formatSummary(const Report& report) {
         fmt::format("balance    {:.4g} lm emitted, {:.4g} absorbed, {:.4g} escaped, {:.2g} % unaccounted\n",
                     lumens(s.audit.emitted), lumens(s.audit.absorbed), lumens(s.audit.escaped),
                     100.0 * s.audit.relativeDefect());
+    if (report.arguments.options.pullRule != solve::PullRule::trueArea) {
+        text += fmt::format("pull       {:+.2g} % of the radiated power, made by the projected rule\n",
+                            100.0 * s.audit.pullDefect);
+    }
     return text;
 }
 

@@ -91,6 +91,20 @@ Vec3d countEscaped(const Problem& problem, const std::vector<NodeId>& leaves, st
     return sum;
 }
 
+// Power of all patches over that of their leaves, less 1.
+double computePullDefect(const Hierarchy& h, const std::vector<NodeId>& leaves) {
+    const auto powerOf = [&h](std::span<const NodeId> nodes) {
+        double power = 0.0;
+        for (const NodeId id : nodes) {
+            power += static_cast<double>(h.shape(id).exposedArea()) *
+                     static_cast<double>(base::channelMean(h.light(id).radiosity));
+        }
+        return power;
+    };
+    const double sent = powerOf(leaves);
+    return sent > 0.0 ? powerOf(h.patches()) / sent - 1.0 : 0.0;
+}
+
 }  // namespace
 
 double Audit::relativeDefect() const {
@@ -171,6 +185,7 @@ Audit auditEnergy(const Problem& problem, std::size_t rayCount) {
         }
         audit.emitted += arrived;
     }
+    audit.pullDefect = computePullDefect(h, leaves);
     audit.isClosed = !h.reached().isOpen;
     audit.escaped = audit.isClosed ? Vec3d(0.0) : countEscaped(problem, leaves, rayCount);
 

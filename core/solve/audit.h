@@ -5,7 +5,8 @@
 namespace fluxwalk::solve {
 
 /// Energy balance of the present solution: emitted and absorbed flux from the leaves, escaped flux from
-/// `rayCount` cosine rays of the leaves, row sums of closed scenes from the links.
+/// `rayCount` cosine rays of the leaves, row sums of closed scenes from the links; the power that pull adds
+/// or loses.
 Audit auditEnergy(const Problem& problem, std::size_t rayCount);
 
 /// Sum of the form factors that a leaf gathers through its own links and, as linear functions over them, its

@@ -16,6 +16,16 @@ enum class ErrorOf : std::uint8_t {
                 ///< same links
 };
 
+/// How a node's radiosity follows from its children's (push copies irradiance in either).
+enum class PullRule : std::uint8_t {
+    /// Means by true area: adjoint to push, power is conserved (ALGORITHMS 1.5, convention A).
+    trueArea,
+    /// Means by area projected on the parent's normal (Schaefer, section 1), normalised: constants are kept,
+    /// but
+    /// on curved surfaces power is not. For comparison; Audit::pullDefect says what it does.
+    projected
+};
+
 struct Options {
     /// Requested error p: RMS of E - E* over all sides that light reaches, as a part of the mean irradiance.
     double error = 0.02;
@@ -26,6 +36,7 @@ struct Options {
     double threshold = 0.0;
     /// No element is split below this area in m2. 0 means 1e-7 of the scene's area.
     double minArea = 0.0;
+    PullRule pullRule = PullRule::trueArea;
     /// Scales the coefficients of closed scenes symmetrically until every row sums to 1, by 5 % at most.
     bool rowScaling = false;
     /// Displayed triangles of curved surfaces are refined until normals within an element's part lie within

@@ -56,6 +56,17 @@ std::vector<OptionInfo> makeTable() {
          .explanation = "Elements below this area are not split; automatic is 1e-7 of the scene's area.",
          .get = [](const Options& o) { return o.minArea; },
          .set = [](Options& o, double value) { o.minArea = value; }});
+    table.push_back(
+        {.name = "pull",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .choices = {"true-area", "projected"},
+         .explanation =
+             "How radiosity is averaged on curved surfaces: 'true-area' conserves power; 'projected' "
+             "weighs by the area projected on the parent's normal, which does not: for comparison.",
+         .get = [](const Options& o) { return static_cast<double>(o.pullRule); },
+         .set = [](Options& o, double value) { o.pullRule = static_cast<PullRule>(value); }});
     table.push_back({.name = "row-scaling",
                      .kind = OptionKind::flag,
                      .maximum = 1.0,

@@ -17,6 +17,9 @@ struct Audit {
     double rowDefectMean = 0.0;
     double rowDefectP99 = 0.0;
     bool isClosed = false;
+    /// What pull makes of the leaves' power on the way to their patches, relative to it: 0 but for rounding
+    /// unless PullRule::projected is chosen.
+    double pullDefect = 0.0;
 
     /// |emitted - absorbed - escaped| / emitted, over all channels.
     double relativeDefect() const;

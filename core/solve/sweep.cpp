@@ -127,8 +127,8 @@ Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
     return {value, scale * from.s, scale * from.t};
 }
 
-// Push moves irradiance down, pull takes means by true exposed area: adjoint to each other in the means
-// (ALGORITHMS 1.5, convention A).
+// Push moves irradiance down, pull takes means, by default by true exposed area: adjoint to each other in the
+// means (ALGORITHMS 1.5, convention A).
 void Sweeper::pushPull(const Block& block, double& change, double& power) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     for (std::size_t i = block.begin; i < block.end; ++i) {
@@ -165,7 +165,24 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
     }
 }
 
-// Means by exposed area; slopes by projection of the quarters' linear functions onto one over the whole.
+// What a child counts in its parent's radiosity: its exposed area, or (Schaefer, section 1) that area
+// projected on the parent's normal; by area again where no child shows itself in that direction.
+std::array<double, 4> Sweeper::pullWeights(NodeId id) const {
+    const hierarchy::Hierarchy& h = problem_.hierarchy;
+    std::array<double, 4> areas{};
+    std::array<double, 4> projected{};
+    double sum = 0.0;
+    for (unsigned c = 0; c < 4; ++c) {
+        const hierarchy::Shape& part = h.shape(h.child(id, c));
+        areas[c] = static_cast<double>(part.exposedArea());
+        projected[c] = areas[c] * std::max(0.0, static_cast<double>(glm::dot(part.axis, h.shape(id).axis)));
+        sum += projected[c];
+    }
+    return problem_.options.pullRule == PullRule::projected && sum > 0.0 ? projected : areas;
+}
+
+// Means by exposed area or as the options say; slopes by projection of the quarters' linear functions onto
+// one over the whole.
 void Sweeper::pull(NodeId id) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     hierarchy::Light& light = h.light(id);
@@ -173,10 +190,13 @@ void Sweeper::pull(NodeId id) {
     Vec3d radiosity(0.0);
     Vec3d irradiance(0.0);
     double area = 0.0;
+    double weight = 0.0;
+    const std::array<double, 4> weights = pullWeights(id);
     for (unsigned c = 0; c < 4; ++c) {
         const NodeId child = h.child(id, c);
         const auto part = static_cast<double>(h.shape(child).exposedArea());
-        radiosity += part * Vec3d(h.light(child).radiosity);
+        radiosity += weights[c] * Vec3d(h.light(child).radiosity);
+        weight += weights[c];
         irradiance += part * Vec3d(h.light(child).irradiance);
         area += part;
     }
@@ -185,7 +205,7 @@ void Sweeper::pull(NodeId id) {
         light.residual = 0.0f;
         return;
     }
-    light.radiosity = Rgb(radiosity / area);
+    light.radiosity = Rgb(radiosity / weight);
     light.irradiance = Rgb(irradiance / area);
     Rgb momentX(0.0f);
     Rgb momentY(0.0f);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/solve/state.h"
 
 namespace fluxwalk::solve {
@@ -25,6 +27,7 @@ class Sweeper {
     void gather(const Block& block);
     void pushPull(const Block& block, double& change, double& power);
     void pull(NodeId id);
+    std::array<double, 4> pullWeights(NodeId id) const;
 
     /// Irradiance over an element: mean + s * local.x + t * local.y (transport::localPointCoordinates, in the
     /// region's orientation).

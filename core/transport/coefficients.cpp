@@ -7,6 +7,7 @@
 #include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
 #include "core/transport/shaft.h"
+#include "core/transport/touching_factor.h"
 #include "core/transport/visibility.h"
 
 namespace fluxwalk::transport {
@@ -70,6 +71,19 @@ void factorFromSource(const ElementPoints& e, const hierarchy::Hierarchy& h, Nod
     out.evaluations = base::kLanes;
 }
 
+PairFactor factorOf(const hierarchy::Hierarchy& h, const Query& query, const ElementPoints& a,
+                    const ElementPoints& b) {
+    if (query.a == query.b) {
+        return computeSelfFactor(a, makeSelfGrid(h, query.a));
+    }
+    const PairFactor factor = computePairFactor(a, b);
+    if (factor.coupling <= 0.0 || !isCurvedContact(a, b)) {
+        return factor;
+    }
+    return computePairFactor(
+        a, b, computeTouchingCoupling(a, makeElementGrid(h, query.a), b, makeElementGrid(h, query.b)));
+}
+
 // Leaves of a pair's coefficient what element `id`'s exposed cells exchange with `other`.
 void limitToExposed(const hierarchy::Hierarchy& h, NodeId id, const ElementPoints& other, double& coupling,
                     base::Vec2& gradient) {
@@ -112,7 +126,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     if (constant) {
         coupling = a.area * b.area * *constant;
     } else {
-        const PairFactor factor = computePairFactor(a, b);
+        const PairFactor factor = factorOf(hierarchy_, query, a, b);
         coupling = factor.coupling;
         out.gradientA = base::Vec2(factor.gradientA);
         out.gradientB = base::Vec2(factor.gradientB);
@@ -149,6 +163,11 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     out.gradientB += base::Vec2(seen.gradientB);
     out.rays = seen.rays;
     out.isMixed = seen.isMixed;
+    if (constant && !out.isMixed) {
+        // A constant kernel has no spread, so a shadow that no ray met would never be looked for: it may take
+        // as much as one ray more (Laplace's rule of succession).
+        out.spreadA = out.spreadB = 1.0f / static_cast<float>(seen.rays + 2);
+    }
     return out;
 }
 

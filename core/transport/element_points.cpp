@@ -14,6 +14,9 @@ constexpr std::array<double, 4> kGauss4{0.069431844202973714, 0.3300094782075718
 constexpr std::array<double, 4> kGauss4Weight{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                               0.17392742256872693};
 
+/// Half angle of the cone of normals in radians up to which an element counts as flat.
+constexpr float kFlatAngle = 1e-5f;
+
 // Bilinear (quad) or linear (triangle; barycentric s, t) map of the corners.
 Vec3d planarPoint(const ElementPoints& e, double s, double t) {
     const auto& c = e.corners;
@@ -86,10 +89,13 @@ ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id
     e.radius = static_cast<double>(shape.radius);
     e.area = static_cast<double>(shape.area);
     e.isPlanar = shape.isPlanar;
+    e.isFlat = shape.isPlanar || shape.halfAngle < kFlatAngle;
     const LocalPoints local = localPoints(e.cornerCount);
     std::array<double, base::kLanes> weight = local.weight;
     if (e.isPlanar) {
         e.normal = {base::splat(e.axis.x), base::splat(e.axis.y), base::splat(e.axis.z)};
+        std::copy(e.corners.begin(), e.corners.end(), e.contour.begin());
+        e.contourCount = e.cornerCount;
         for (int i = 0; i < base::kLanes; ++i) {
             const Vec2d at = local.at[static_cast<std::size_t>(i)];
             setLane(e.position, i, planarPoint(e, at.x, at.y));
@@ -114,6 +120,15 @@ ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id
             setLane(e.normal, i, name.back ? -p.normal : p.normal);
             weight[static_cast<std::size_t>(i)] *= p.jacobian;
         }
+        constexpr double kArea = 4.0 / 3.0;
+        for (std::uint32_t i = 0; i < e.cornerCount; ++i) {
+            const std::uint32_t next = (i + 1) % e.cornerCount;
+            const Vec3d chord = 0.5 * (e.corners[i] + e.corners[next]);
+            const Vec3d middle = surface.evaluate(name.patch, 0.5 * (c[i] + c[next])).position;
+            e.contour[2 * i] = e.corners[i];
+            e.contour[2 * i + 1] = chord + kArea * (middle - chord);
+        }
+        e.contourCount = 2 * e.cornerCount;
     }
     double sum = 0.0;
     for (const double w : weight) {

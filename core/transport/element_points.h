@@ -19,11 +19,16 @@ struct alignas(base::kLanesAlignment) ElementPoints {
     Lanes weight;
     std::array<Vec3d, 4> corners{};
     std::uint32_t cornerCount = 0;
+    /// Boundary: the corners of a planar element; of a curved one also a point for each edge, off the edge's
+    /// middle by 4/3 of its rise over the chord, so that the triangle on the chord has the area of the arc.
+    std::array<Vec3d, 8> contour{};
+    std::uint32_t contourCount = 0;
     Vec3d axis{};  ///< normal of a planar element
     Vec3d center{};
     double radius = 0.0;
     double area = 0.0;  ///< m2
     bool isPlanar = true;
+    bool isFlat = true;  ///< all normals are alike; its edges may be curved
 };
 
 ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id);

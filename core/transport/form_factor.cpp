@@ -36,9 +36,9 @@ FLUXWALK_INLINE double sumLanes(Lanes v) {
 }
 
 // Lambert's formula for one point whose horizon cuts the polygon: clip, then sum over the edges.
-double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d, 4>& corners,
+double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d, 8>& corners,
                           std::uint32_t count) {
-    std::array<Vec3d, 8> clipped;
+    std::array<Vec3d, 16> clipped;
     std::uint32_t m = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vec3d a = corners[i] - x;
@@ -65,10 +65,11 @@ double clippedPointFactor(const Vec3d& x, const Vec3d& n, const std::array<Vec3d
     return std::max(0.0, sum / (2.0 * kPi));
 }
 
-// Factor of a planar polygon seen from eight points. Corners run counter-clockwise seen from its front.
-FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std::array<Vec3d, 4>& corners,
+// Factor of what a closed polygon bounds, seen from eight points that all of it faces: it depends on the
+// contour alone, so the polygon need not be planar. Corners run counter-clockwise seen from the front.
+FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std::array<Vec3d, 8>& corners,
                                     std::uint32_t count, double tolerance) {
-    std::array<Lanes3, 4> d;
+    std::array<Lanes3, 8> d;
     auto below = LaneMask{};
     auto above = LaneMask{};
     for (std::uint32_t k = 0; k < count; ++k) {
@@ -100,10 +101,11 @@ FLUXWALK_INLINE Lanes polygonFactor(const Lanes3& x, const Lanes3& n, const std:
     return factor;
 }
 
-// Factor of an element seen from eight points, by the source's cubature points; `soften` (m2) keeps the
-// kernel finite when near.
+// Factor of an element seen from eight points, by the source's cubature points. Each stands for a disc of
+// `part` m2: K / (1 + K) with K = part cos cos / (pi r2), which is exact on the disc's axis and leaves the
+// kernel alone where it is finite by itself, as between neighbours on a hollow surface.
 FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source,
-                                     double soften) {
+                                     double part) {
     Lanes sum = splat(0.0);
     for (int j = 0; j < 4; ++j) {
         const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
@@ -113,9 +115,41 @@ FLUXWALK_INLINE Lanes cubatureFactor(const Lanes3& x, const Lanes3& n, const Ele
         const Lanes there =
             -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
         const Lanes facing = base::maxLanes(here, splat(0.0)) * base::maxLanes(there, splat(0.0));
-        sum += source.weight[j] * facing / base::maxLanes(r2 * (kPi * r2 + soften), splat(1e-300));
+        sum += source.weight[j] * facing / base::maxLanes(kPi * r2 * r2 + part * facing, splat(1e-300));
     }
     return base::minLanes(source.area * sum, splat(1.0));
+}
+
+// Which of eight points all of a curved source faces.
+FLUXWALK_INLINE LaneMask facesAll(const Lanes3& x, const ElementPoints& source) {
+    LaneMask all = ~LaneMask{};
+    for (int j = 0; j < kLanes; ++j) {
+        const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
+                           source.position.z[j] - x.z};
+        const Lanes there =
+            -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
+        all &= (there > 0.0) & (there * there > kLeastFacing * kLeastFacing * dot(to, to));
+    }
+    return all;
+}
+
+// Factor of an element that is not far: by its contour where all of it faces the point, else by its cubature
+// points.
+FLUXWALK_INLINE Lanes nearFactor(const Lanes3& x, const Lanes3& n, const ElementPoints& source,
+                                 double tolerance, std::uint32_t& evaluations) {
+    LaneMask facing = ~LaneMask{};
+    Lanes factor = splat(0.0);
+    if (!source.isFlat) {
+        facing = facesAll(x, source);
+        factor = cubatureFactor(x, n, source, 0.25 * source.area);
+        evaluations += 32;
+    }
+    if (base::anyLane(facing)) {
+        const Lanes whole = polygonFactor(x, n, source.contour, source.contourCount, tolerance);
+        factor = facing ? whole : factor;
+        evaluations += 8 * source.contourCount;
+    }
+    return factor;
 }
 
 struct alignas(base::kLanesAlignment) OneWay {
@@ -136,24 +170,21 @@ FLUXWALK_INLINE OneWay summarize(Lanes factor, Lanes weight) {
 
 FLUXWALK_INLINE OneWay lookAt(const ElementPoints& receiver, const ElementPoints& source, bool far, bool near,
                               double tolerance, std::uint32_t& evaluations) {
-    if (far || !source.isPlanar) {
-        const double soften = far ? 0.0 : 0.25 * source.area;
+    if (far) {
         evaluations += 32;
-        return summarize(cubatureFactor(receiver.position, receiver.normal, source, soften), receiver.weight);
+        return summarize(cubatureFactor(receiver.position, receiver.normal, source, 0.0), receiver.weight);
     }
-    evaluations += 8 * source.cornerCount;
-    OneWay r = summarize(
-        polygonFactor(receiver.position, receiver.normal, source.corners, source.cornerCount, tolerance),
-        receiver.weight);
-    if (near && receiver.isPlanar && r.largest > 0.0) {
+    OneWay r = summarize(nearFactor(receiver.position, receiver.normal, source, tolerance, evaluations),
+                         receiver.weight);
+    if (near && receiver.isPlanar && source.isFlat && r.largest > 0.0) {
         const DensePoints dense = makeDensePoints(receiver);
         double mean = 0.0;
         for (std::size_t block = 0; block < 2; ++block) {
             mean +=
                 sumLanes(dense.weight[block] * polygonFactor(dense.position[block], receiver.normal,
-                                                             source.corners, source.cornerCount, tolerance));
+                                                             source.contour, source.contourCount, tolerance));
         }
-        evaluations += 16 * source.cornerCount;
+        evaluations += 16 * source.contourCount;
         r.mean = mean;
     }
     return r;
@@ -197,6 +228,14 @@ std::array<double, kLanes> toArray(Lanes v) {
 
 }  // namespace
 
+ViewWeights weighViews(const ElementPoints& a, const ElementPoints& b, bool isNear) {
+    if (isNear && a.isFlat != b.isFlat) {
+        return b.isFlat ? ViewWeights{1.0, 0.0} : ViewWeights{0.0, 1.0};
+    }
+    const double both = a.radius * a.radius + b.radius * b.radius;
+    return {b.radius * b.radius / both, a.radius * a.radius / both};
+}
+
 LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLanes>& values, double mean) {
     LinearFit fit;
     fit.mean = mean;
@@ -226,21 +265,14 @@ LinearFit fitLinear(const ElementPoints& element, const std::array<double, kLane
 
 namespace {
 
-PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWays& views) {
+PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWays& views,
+                   const std::optional<double>& known = std::nullopt) {
     const OneWay& atA = views.atA;
     const OneWay& atB = views.atB;
     PairFactor result;
     result.evaluations = views.evaluations;
-    // Points of the smaller element see the larger one's exact factor vary least, so they weigh more; where
-    // only one element is planar, its exact factor seen from the curved one counts alone.
-    const double both = a.radius * a.radius + b.radius * b.radius;
-    double weightA = b.radius * b.radius / both;
-    double weightB = a.radius * a.radius / both;
-    if (!views.far && a.isPlanar != b.isPlanar) {
-        weightA = b.isPlanar ? 1.0 : 0.0;
-        weightB = 1.0 - weightA;
-    }
-    result.coupling = weightA * (a.area * atA.mean) + weightB * (b.area * atB.mean);
+    const ViewWeights weights = weighViews(a, b, !views.far);
+    result.coupling = weights.atA * (a.area * atA.mean) + weights.atB * (b.area * atB.mean);
     const bool touch = glm::distance(a.center, b.center) < a.radius + b.radius;
     if (touch && a.isPlanar && b.isPlanar && atA.largest > 0.0 && atB.largest > 0.0) {
         // In one order, as rounding depends on it.
@@ -251,6 +283,9 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
         const ElementPoints& other = isFirst ? b : a;
         result.coupling = polygonCoupling(std::span(one.corners.data(), one.cornerCount),
                                           std::span(other.corners.data(), other.cornerCount));
+    }
+    if (known) {
+        result.coupling = *known;
     }
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {
@@ -285,17 +320,19 @@ PairFactor computePairFactorAvx2(const ElementPoints& a, const ElementPoints& b)
     return combine(a, b, viewBothAvx2(a, b));
 }
 
-PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b) {
+PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b,
+                             const std::optional<double>& coupling) {
     static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
-    return hasAvx2 ? computePairFactorAvx2(a, b) : computePairFactorBaseline(a, b);
+    return combine(a, b, hasAvx2 ? viewBothAvx2(a, b) : viewBothBaseline(a, b), coupling);
 }
 
 double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {
-    if (source.isPlanar) {
-        return clippedPointFactor(x, normal, source.corners, source.cornerCount);
+    if (source.isFlat) {
+        return clippedPointFactor(x, normal, source.contour, source.contourCount);
     }
-    const Lanes factor = cubatureFactor(splat3(x), splat3(normal), source, 0.25 * source.area);
-    return factor[0];
+    const double tolerance = 1e-6 * (glm::distance(x, source.center) + source.radius);
+    std::uint32_t evaluations = 0;
+    return nearFactor(splat3(x), splat3(normal), source, tolerance, evaluations)[0];
 }
 
 }  // namespace fluxwalk::transport

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/transport/element_points.h"
 
 /// Form factors between elements, without occlusion, in SIMD batches of eight points.
@@ -29,10 +31,27 @@ struct LinearFit {
 LinearFit fitLinear(const ElementPoints& element, const std::array<double, base::kLanes>& values,
                     double mean);
 
+/// Least cosine at which all points of a curved source must show themselves to a point, so that the source's
+/// contour stands for it.
+inline constexpr double kLeastFacing = 0.1;
+
+/// How much the views from either end count in a pair's coupling; they sum to 1. Points of the smaller
+/// element see the larger one's exact factor vary least, so they weigh more; where only one of two near
+/// elements is flat, its exact factor seen from the curved one counts alone.
+struct ViewWeights {
+    double atA = 0.0;
+    double atB = 0.0;
+};
+ViewWeights weighViews(const ElementPoints& a, const ElementPoints& b, bool isNear);
+
 /// Exact point-to-polygon factors (Lambert's formula) averaged over both elements when near, 2 x 2 Gauss
-/// pairs when far; true normals and measure on curved elements. A pure function of the two, symmetric in
+/// pairs when far; true normals and measure on curved elements, whose contours take the place of polygons
+/// where all of them faces the other's points: what a point receives from a surface that it sees from the
+/// front alone depends on the contour only. A pure function of the two, symmetric in
 /// their roles. (ALGORITHMS 1.7; Cohen and Wallace 1993, chapter 4.)
-PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b);
+/// `coupling` takes the place of its own where a better one is known (touching_factor.h).
+PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b,
+                             const std::optional<double>& coupling = std::nullopt);
 
 /// Form factor from a point to an element: the irradiance at x per unit of the element's radiosity,
 /// unoccluded.

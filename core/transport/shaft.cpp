@@ -184,6 +184,9 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
     const hierarchy::ElementName nameB = hierarchy.name(b);
     const Shaft shaft(shapeA, shapeB, tolerance);
     const bool bothPlanar = shapeA.isPlanar && shapeB.isPlanar;
+    // Inside a sphere all points see each other past the sphere itself.
+    const bool isInsideSphere = nameA.object == nameB.object && nameA.back == nameB.back &&
+                                hierarchy.surfaceOf(a).exactKernel(nameA.back).has_value();
     const auto nodes = hierarchy.shaftTree().nodes();
     std::array<std::uint32_t, 128> stack;
     std::size_t depth = 0;
@@ -204,6 +207,9 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
             continue;
         }
         const auto [object, patch] = hierarchy.shaftItems()[node.item];
+        if (isInsideSphere && object == nameA.object) {
+            continue;
+        }
         const surface::Surface& surface = *hierarchy.scene().objects[object].surface;
         const bool isPlanar = surface.isPlanar(patch);
         if (isPlanar && ((object == nameA.object && patch == nameA.patch) ||

@@ -1,0 +1,147 @@
+#include "core/transport/touching_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/photometry.h"
+#include "core/transport/exact_form_factor.h"
+
+namespace fluxwalk::transport {
+
+namespace {
+
+using base::kPi;
+
+/// 4-point Gauss-Legendre on [0, 1].
+constexpr std::array<double, 4> kNode{0.069431844202973714, 0.33000947820757187, 0.66999052179242813,
+                                      0.93056815579702629};
+constexpr std::array<double, 4> kWeight{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                        0.17392742256872693};
+
+// cos cos r2, without the parts of either that face away.
+template <class Point>
+double facing(const Point& a, const Point& b, const Vec3d& to) {
+    return std::max(0.0, glm::dot(a.normal, to)) * std::max(0.0, -glm::dot(b.normal, to));
+}
+
+bool facesAll(const Vec3d& x, const ElementGrid& source) {
+    return std::all_of(source.points.begin(), source.points.end(), [&](const ElementGrid::Point& p) {
+        const Vec3d to = x - p.position;
+        const double there = glm::dot(p.normal, to);
+        return there > 0.0 && there * there > kLeastFacing * kLeastFacing * glm::dot(to, to);
+    });
+}
+
+double pointFactor(const ElementGrid::Point& x, const ElementPoints& source, const ElementGrid& grid) {
+    const bool isFlatInFront = source.isFlat && glm::dot(source.axis, x.position - source.center) > 0.0;
+    if (isFlatInFront || (!source.isFlat && facesAll(x.position, grid))) {
+        return pointToPolygon(x.position, x.normal, std::span(source.contour.data(), source.contourCount));
+    }
+    if (source.isFlat) {
+        return 0.0;
+    }
+    const double part = source.area / static_cast<double>(grid.points.size());
+    double sum = 0.0;
+    for (const ElementGrid::Point& y : grid.points) {
+        const Vec3d to = y.position - x.position;
+        const double r2 = glm::dot(to, to);
+        const double c = facing(x, y, to);
+        sum += c > 0.0 ? y.weight * c / (kPi * r2 * r2 + part * c) : 0.0;
+    }
+    return std::min(1.0, source.area * sum);
+}
+
+double meanFactor(const ElementGrid& receiver, const ElementPoints& source, const ElementGrid& grid) {
+    double mean = 0.0;
+    for (const ElementGrid::Point& x : receiver.points) {
+        mean += x.weight * pointFactor(x, source, grid);
+    }
+    return mean;
+}
+
+// The 4-point rule in each of side / 4 parts of the interval.
+template <std::size_t side>
+double nodeAt(std::size_t i) {
+    return (static_cast<double>(i / 4) + kNode[i % 4]) * (4.0 / static_cast<double>(side));
+}
+
+template <std::size_t side>
+GaussGrid<side> makeGrid(const hierarchy::Hierarchy& hierarchy, NodeId id) {
+    const ElementSampler sampler(hierarchy, id);
+    const bool isTriangle = hierarchy.shape(id).cornerCount == 3;
+    GaussGrid<side> grid;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < side; ++j) {
+        for (std::size_t i = 0; i < side; ++i) {
+            // The square root in a triangle's map is undone, so that the integrand stays smooth.
+            const double s = nodeAt<side>(i);
+            const SurfaceSample p = sampler.at({isTriangle ? s * s : s, nodeAt<side>(j)});
+            const double weight = kWeight[i % 4] * kWeight[j % 4] * p.measure * (isTriangle ? s : 1.0);
+            grid.points[side * j + i] = {p.position, p.normal, weight};
+            sum += weight;
+        }
+    }
+    for (auto& p : grid.points) {
+        p.weight /= sum;
+    }
+    return grid;
+}
+
+}  // namespace
+
+ElementGrid makeElementGrid(const hierarchy::Hierarchy& hierarchy, NodeId id) {
+    return makeGrid<4>(hierarchy, id);
+}
+
+SelfGrid makeSelfGrid(const hierarchy::Hierarchy& hierarchy, NodeId id) {
+    return makeGrid<8>(hierarchy, id);
+}
+
+bool isCurvedContact(const ElementPoints& a, const ElementPoints& b) {
+    return !(a.isPlanar && b.isPlanar) && glm::distance(a.center, b.center) < a.radius + b.radius;
+}
+
+double computeTouchingCoupling(const ElementPoints& a, const ElementGrid& gridA, const ElementPoints& b,
+                               const ElementGrid& gridB) {
+    const ViewWeights weights = weighViews(a, b, true);
+    double coupling = 0.0;
+    if (weights.atA > 0.0) {
+        coupling += weights.atA * (a.area * meanFactor(gridA, b, gridB));
+    }
+    if (weights.atB > 0.0) {
+        coupling += weights.atB * (b.area * meanFactor(gridB, a, gridA));
+    }
+    return coupling;
+}
+
+PairFactor computeSelfFactor(const ElementPoints& element, const SelfGrid& grid) {
+    PairFactor result;
+    double weights = 0.0;
+    double sum = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    double largest = 0.0;
+    for (std::size_t i = 0; i < grid.points.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const SelfGrid::Point& x = grid.points[i];
+            const SelfGrid::Point& y = grid.points[j];
+            const Vec3d to = y.position - x.position;
+            const double r2 = glm::dot(to, to);
+            const double kernel = r2 > 0.0 ? facing(x, y, to) / (kPi * r2 * r2) : 0.0;
+            least = std::min(least, kernel);
+            largest = std::max(largest, kernel);
+            sum += x.weight * y.weight * kernel;
+            weights += x.weight * y.weight;
+            ++result.evaluations;
+        }
+    }
+    if (sum <= 0.0) {
+        return result;
+    }
+    const double mean = sum / weights;
+    result.coupling = element.area * element.area * mean;
+    result.spreadA = result.spreadB = std::max(largest - mean, mean - least) / mean;
+    return result;
+}
+
+}  // namespace fluxwalk::transport
