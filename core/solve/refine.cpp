@@ -159,9 +159,6 @@ class Refinement {
     }
 
     Verdict chooseSplit(const Link& link, bool preferA) const {
-        if (link.a == link.b) {
-            return Verdict::accept;
-        }
         const bool canA = isSplittable(link.a);
         const bool canB = isSplittable(link.b);
         if (!canA && !canB) {
@@ -174,8 +171,26 @@ class Refinement {
         return !link.isOpen() && link.visibility() > 0.0f && link.visibility() < 1.0f;
     }
 
+    // How a concave element that sees itself goes on.
+    Verdict judgeSelf(NodeId id) const {
+        const hierarchy::ElementName name = hierarchy_.name(id);
+        if (hierarchy_.surfaceOf(id).exactKernel(name.back) || !isSplittable(id)) {
+            return Verdict::accept;
+        }
+        const Shape& shape = hierarchy_.shape(id);
+        const float error = transport::assessSelf(
+            problem_.options.oracle, {.area = shape.exposedArea(),
+                                      .halfAngle = shape.halfAngle,
+                                      .radiosity = base::channelMean(hierarchy_.light(id).radiosity),
+                                      .sceneArea = sceneArea_});
+        return error <= threshold_ ? Verdict::accept : Verdict::splitSelf;
+    }
+
     // From what the link keeps alone, so that a new pair and a standing link are judged alike.
     Verdict judge(const Link& link) const {
+        if (link.a == link.b) {
+            return judgeSelf(link.a);
+        }
         const float v = link.visibility();
         const NodeKind kindB = hierarchy_.kind(link.b);
         // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
@@ -223,10 +238,9 @@ class Refinement {
         return d;
     }
 
-    // A concave element sees itself: kept as a link where its kernel is one constant or it is small,
-    // otherwise split into its parts.
+    // A concave element sees itself: kept as a link where that matters little, or where its kernel is one
+    // constant; otherwise split into its parts.
     Decision decideSelf(const Query& pair, Counters& counters) const {
-        constexpr unsigned kSelfLevels = 3;
         Decision d;
         d.link.a = pair.a;
         d.link.b = pair.a;
@@ -238,21 +252,17 @@ class Refinement {
             return d;
         }
         const hierarchy::ElementName name = hierarchy_.name(pair.a);
-        const surface::Surface& surface = hierarchy_.surfaceOf(pair.a);
-        if (!surface.canSeeItself(name.patch, name.back)) {
+        if (!hierarchy_.surfaceOf(pair.a).canSeeItself(name.patch, name.back) ||
+            hierarchy_.shape(pair.a).exposedCells == 0) {
             return d;
         }
-        if (!surface.exactKernel(name.back) && surface::pathLevel(name.path) < kSelfLevels &&
-            isSplittable(pair.a)) {
-            d.verdict = Verdict::splitSelf;
-            return d;
-        }
-        Coefficient c;
-        service_.compute(std::span(&pair, 1), std::span(&c, 1));
-        count(c, counters);
-        if (c.coupling > 0.0f && !c.isBlocked) {
+        d.verdict = judgeSelf(pair.a);
+        if (d.verdict == Verdict::accept) {
+            // Also where no sample saw another one: more light may ask for its parts.
+            Coefficient c;
+            service_.compute(std::span(&pair, 1), std::span(&c, 1));
+            count(c, counters);
             setCoefficient(d.link, c);
-            d.verdict = Verdict::accept;
         }
         return d;
     }

@@ -58,4 +58,14 @@ LinkAssessment assess(OracleKind oracle, const LinkBounds& k) {
     return {};
 }
 
+float assessSelf(OracleKind oracle, const SelfBounds& self) {
+    // Chords of a surface whose normals lie within nu of an axis are within nu of the plane across it, so
+    // within 2 nu of the tangent plane at their ends: no point sees more than the band of the hemisphere
+    // below that, whose part is sin2(2 nu).
+    constexpr float kQuarterPi = 0.785398163f;
+    const float reach = std::sin(2.0f * std::min(self.halfAngle, kQuarterPi));
+    const float irradiance = reach * reach * self.radiosity;
+    return oracle == OracleKind::bf ? irradiance : irradiance * self.area / self.sceneArea;
+}
+
 }  // namespace fluxwalk::transport

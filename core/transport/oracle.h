@@ -44,4 +44,15 @@ struct LinkAssessment {
 /// The one interface of all oracles, over the same bounds.
 LinkAssessment assess(OracleKind oracle, const LinkBounds& link);
 
+/// What is known of an element's exchange with itself.
+struct SelfBounds {
+    float area = 0.0f;       ///< m2
+    float halfAngle = 0.0f;  ///< of the cone of normals, radians
+    float radiosity = 0.0f;  ///< channel mean, lm/m2
+    float sceneArea = 1.0f;
+};
+
+/// The same error, from the most that the cone of normals lets an element see of itself.
+float assessSelf(OracleKind oracle, const SelfBounds& self);
+
 }  // namespace fluxwalk::transport
