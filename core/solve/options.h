@@ -24,6 +24,9 @@ struct Options {
     /// Largest error of a link in lux (bf: of the receiver; bfa and bounded: spread over the whole scene's
     /// area). 0 chooses it by a closed loop that ends at `error`.
     double threshold = 0.0;
+    /// Weight of the normals' spread over curved elements in the bounded oracle, beside the spread of the
+    /// kernel that its sample points see: 1 takes what the cone of normals implies. 0 leaves it out.
+    double curvatureWeight = 1.0;
     /// No element is split below this area in m2. 0 means 1e-7 of the scene's area.
     double minArea = 0.0;
     /// Scales the coefficients of closed scenes symmetrically until every row sums to 1, by 5 % at most.

@@ -59,6 +59,16 @@ bool facesAway(const Shape& from, const Shape& to) {
     return between - static_cast<double>(from.halfAngle) - delta >= 0.5 * base::kPi;
 }
 
+// The spread that a curved end's cone of normals implies for light from `direction`.
+float curvatureOf(const Shape& shape, const base::Vec3& direction) {
+    const float distance = glm::length(direction);
+    if (shape.isPlanar || distance <= 0.0f) {
+        return 0.0f;
+    }
+    const double angle = base::NormalCone::angleBetween(Vec3d(shape.axis), Vec3d(direction / distance));
+    return transport::boundCurvature(static_cast<float>(angle), shape.halfAngle);
+}
+
 class Refinement {
   public:
     Refinement(Problem& problem, double threshold)
@@ -143,6 +153,9 @@ class Refinement {
         k.isMixed = isMixed;
         k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
         k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
+        const auto curvature = static_cast<float>(problem_.options.curvatureWeight);
+        k.curvatureA = curvature * curvatureOf(shapeA, shapeB.center - shapeA.center);
+        k.curvatureB = isOneWay ? 0.0f : curvature * curvatureOf(shapeB, shapeA.center - shapeB.center);
         k.radiosityA = isOneWay ? 0.0f : base::channelMean(a.radiosity);
         k.radiosityB = base::channelMean(b.radiosity);
         k.residualA = isOneWay ? 0.0f : a.residual;
