@@ -34,6 +34,9 @@ struct Options {
     /// Largest error of a link in lux (bf: of the receiver; bfa and bounded: spread over the whole scene's
     /// area). 0 chooses it by a closed loop that ends at `error`.
     double threshold = 0.0;
+    /// Weight of the normals' spread over curved elements in the bounded oracle, beside the spread of the
+    /// kernel that its sample points see: 1 takes what the cone of normals implies. 0 leaves it out.
+    double curvatureWeight = 1.0;
     /// No element is split below this area in m2. 0 means 1e-7 of the scene's area.
     double minArea = 0.0;
     PullRule pullRule = PullRule::trueArea;

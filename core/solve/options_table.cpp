@@ -47,6 +47,15 @@ std::vector<OptionInfo> makeTable() {
              "Largest error of one link; automatic lowers it until the requested error is reached.",
          .get = [](const Options& o) { return o.threshold; },
          .set = [](Options& o, double value) { o.threshold = value; }});
+    table.push_back({.name = "curvature-weight",
+                     .minimum = 0.0,
+                     .maximum = 16.0,
+                     .zero = "off",
+                     .explanation =
+                         "How much the spread of the normals over a curved element counts in the oracle "
+                         "'bounded': more refines curved objects further. Planar scenes do not change.",
+                     .get = [](const Options& o) { return o.curvatureWeight; },
+                     .set = [](Options& o, double value) { o.curvatureWeight = value; }});
     table.push_back(
         {.name = "min-area",
          .unit = "m2",

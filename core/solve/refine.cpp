@@ -59,6 +59,16 @@ bool facesAway(const Shape& from, const Shape& to) {
     return between - static_cast<double>(from.halfAngle) - delta >= 0.5 * base::kPi;
 }
 
+// The spread that a curved end's cone of normals implies for light from `direction`.
+float curvatureOf(const Shape& shape, const base::Vec3& direction) {
+    const float distance = glm::length(direction);
+    if (shape.isPlanar || distance <= 0.0f) {
+        return 0.0f;
+    }
+    const double angle = base::NormalCone::angleBetween(Vec3d(shape.axis), Vec3d(direction / distance));
+    return transport::boundCurvature(static_cast<float>(angle), shape.halfAngle);
+}
+
 class Refinement {
   public:
     Refinement(Problem& problem, double threshold)
@@ -143,6 +153,9 @@ class Refinement {
         k.isMixed = isMixed;
         k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
         k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
+        const auto curvature = static_cast<float>(problem_.options.curvatureWeight);
+        k.curvatureA = curvature * curvatureOf(shapeA, shapeB.center - shapeA.center);
+        k.curvatureB = isOneWay ? 0.0f : curvature * curvatureOf(shapeB, shapeA.center - shapeB.center);
         k.radiosityA = isOneWay ? 0.0f : base::channelMean(a.radiosity);
         k.radiosityB = base::channelMean(b.radiosity);
         k.residualA = isOneWay ? 0.0f : a.residual;
@@ -159,9 +172,6 @@ class Refinement {
     }
 
     Verdict chooseSplit(const Link& link, bool preferA) const {
-        if (link.a == link.b) {
-            return Verdict::accept;
-        }
         const bool canA = isSplittable(link.a);
         const bool canB = isSplittable(link.b);
         if (!canA && !canB) {
@@ -174,8 +184,26 @@ class Refinement {
         return !link.isOpen() && link.visibility() > 0.0f && link.visibility() < 1.0f;
     }
 
+    // How a concave element that sees itself goes on.
+    Verdict judgeSelf(NodeId id) const {
+        const hierarchy::ElementName name = hierarchy_.name(id);
+        if (hierarchy_.surfaceOf(id).exactKernel(name.back) || !isSplittable(id)) {
+            return Verdict::accept;
+        }
+        const Shape& shape = hierarchy_.shape(id);
+        const float error = transport::assessSelf(
+            problem_.options.oracle, {.area = shape.exposedArea(),
+                                      .halfAngle = shape.halfAngle,
+                                      .radiosity = base::channelMean(hierarchy_.light(id).radiosity),
+                                      .sceneArea = sceneArea_});
+        return error <= threshold_ ? Verdict::accept : Verdict::splitSelf;
+    }
+
     // From what the link keeps alone, so that a new pair and a standing link are judged alike.
     Verdict judge(const Link& link) const {
+        if (link.a == link.b) {
+            return judgeSelf(link.a);
+        }
         const float v = link.visibility();
         const NodeKind kindB = hierarchy_.kind(link.b);
         // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
@@ -223,10 +251,9 @@ class Refinement {
         return d;
     }
 
-    // A concave element sees itself: kept as a link where its kernel is one constant or it is small,
-    // otherwise split into its parts.
+    // A concave element sees itself: kept as a link where that matters little, or where its kernel is one
+    // constant; otherwise split into its parts.
     Decision decideSelf(const Query& pair, Counters& counters) const {
-        constexpr unsigned kSelfLevels = 3;
         Decision d;
         d.link.a = pair.a;
         d.link.b = pair.a;
@@ -238,21 +265,17 @@ class Refinement {
             return d;
         }
         const hierarchy::ElementName name = hierarchy_.name(pair.a);
-        const surface::Surface& surface = hierarchy_.surfaceOf(pair.a);
-        if (!surface.canSeeItself(name.patch, name.back)) {
+        if (!hierarchy_.surfaceOf(pair.a).canSeeItself(name.patch, name.back) ||
+            hierarchy_.shape(pair.a).exposedCells == 0) {
             return d;
         }
-        if (!surface.exactKernel(name.back) && surface::pathLevel(name.path) < kSelfLevels &&
-            isSplittable(pair.a)) {
-            d.verdict = Verdict::splitSelf;
-            return d;
-        }
-        Coefficient c;
-        service_.compute(std::span(&pair, 1), std::span(&c, 1));
-        count(c, counters);
-        if (c.coupling > 0.0f && !c.isBlocked) {
+        d.verdict = judgeSelf(pair.a);
+        if (d.verdict == Verdict::accept) {
+            // Also where no sample saw another one: more light may ask for its parts.
+            Coefficient c;
+            service_.compute(std::span(&pair, 1), std::span(&c, 1));
+            count(c, counters);
             setCoefficient(d.link, c);
-            d.verdict = Verdict::accept;
         }
         return d;
     }

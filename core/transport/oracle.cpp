@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fluxwalk::transport {
 
@@ -13,12 +14,12 @@ namespace {
 constexpr float kMaxSizeRatio = 3.0f;
 
 // Error of a constant coefficient in power (MEASURED: power norm on all terms): the kernel's deviation over
-// the receiver, the source's spread of radiosity where it meets a varying kernel or a partly blocked view,
-// and partial visibility itself.
+// the receiver, as far as its points show and its curvature implies, the source's spread of radiosity where
+// it meets a varying kernel or a partly blocked view, and partial visibility itself.
 LinkAssessment assessBounded(const LinkBounds& k) {
     const float g = k.coupling;
-    const float kernelA = g * k.radiosityB * k.spreadA * k.visibilityUpper;
-    const float kernelB = g * k.radiosityA * k.spreadB * k.visibilityUpper;
+    const float kernelA = g * k.radiosityB * (k.spreadA + k.curvatureA) * k.visibilityUpper;
+    const float kernelB = g * k.radiosityA * (k.spreadB + k.curvatureB) * k.visibilityUpper;
     const float v = k.visibility;
     const float partial = k.isMixed ? std::sqrt(std::max(0.0f, v * (1.0f - v))) : 0.0f;
     const float gap = std::max(k.distance, 1e-20f);
@@ -44,6 +45,21 @@ LinkAssessment assessBounded(const LinkBounds& k) {
 
 }  // namespace
 
+float boundCurvature(float angle, float halfAngle) {
+    if (halfAngle <= 0.0f) {
+        return 0.0f;
+    }
+    constexpr float kLargest = 64.0f;  // as where only a corner is above the horizon
+    const auto lit = [](float a) { return std::max(0.0f, std::cos(std::min(a, std::numbers::pi_v<float>))); };
+    const float first = lit(std::abs(angle - halfAngle));
+    const float middle = lit(angle);
+    const float last = lit(angle + halfAngle);
+    const float ends = 0.5f * (first + last);
+    const float deviation = std::abs(ends - middle);
+    const float mean = 0.5f * (ends + middle);
+    return deviation < kLargest * mean ? deviation / mean : kLargest;
+}
+
 LinkAssessment assess(OracleKind oracle, const LinkBounds& k) {
     const float transfer = k.coupling * k.visibility;
     const bool largerA = k.radiusA >= k.radiusB;
@@ -56,6 +72,16 @@ LinkAssessment assess(OracleKind oracle, const LinkBounds& k) {
             return {std::max(transfer * k.radiosityB / k.areaA, transfer * k.radiosityA / k.areaB), largerA};
     }
     return {};
+}
+
+float assessSelf(OracleKind oracle, const SelfBounds& self) {
+    // Chords of a surface whose normals lie within nu of an axis are within nu of the plane across it, so
+    // within 2 nu of the tangent plane at their ends: no point sees more than the band of the hemisphere
+    // below that, whose part is sin2(2 nu).
+    constexpr float kRightAngle = 0.5f * std::numbers::pi_v<float>;
+    const float reach = std::sin(std::min(2.0f * self.halfAngle, kRightAngle));
+    const float irradiance = reach * reach * self.radiosity;
+    return oracle == OracleKind::bf ? irradiance : irradiance * self.area / self.sceneArea;
 }
 
 }  // namespace fluxwalk::transport

@@ -20,6 +20,8 @@ struct LinkBounds {
     bool isMixed = false;          ///< partly visible
     float spreadA = 0.0f;          ///< of the kernel over a, relative
     float spreadB = 0.0f;
+    float curvatureA = 0.0f;  ///< spread that the cone of normals of a implies, weighted
+    float curvatureB = 0.0f;
     float radiosityA = 0.0f;
     float radiosityB = 0.0f;
     float residualA = 0.0f;  ///< largest deviation of the radiosity from a linear function over the node
@@ -34,6 +36,12 @@ struct LinkBounds {
     float sceneArea = 1.0f;
 };
 
+/// How far the cosine over an element whose normals lie within `halfAngle` of an axis, which is turned by
+/// `angle` from the direction of the light (both in radians, below pi), is from a linear function: relative
+/// to its mean. 2 tan2(halfAngle / 2) while the light is above all horizons, more where the element turns
+/// away from it; 0 on planar elements. (Schaefer, section 1; ALGORITHMS 1.3 f.)
+float boundCurvature(float angle, float halfAngle);
+
 struct LinkAssessment {
     /// In lux: bf of the receiver, else power spread over the scene's area; of the direction that is worse.
     float error = 0.0f;
@@ -43,5 +51,16 @@ struct LinkAssessment {
 
 /// The one interface of all oracles, over the same bounds.
 LinkAssessment assess(OracleKind oracle, const LinkBounds& link);
+
+/// What is known of an element's exchange with itself.
+struct SelfBounds {
+    float area = 0.0f;       ///< m2
+    float halfAngle = 0.0f;  ///< of the cone of normals, radians
+    float radiosity = 0.0f;  ///< channel mean, lm/m2
+    float sceneArea = 1.0f;
+};
+
+/// The same error, from the most that the cone of normals lets an element see of itself.
+float assessSelf(OracleKind oracle, const SelfBounds& self);
 
 }  // namespace fluxwalk::transport

@@ -62,25 +62,36 @@ double noiseSquare(std::span<const ReferencePoint> points) {
 }
 
 Reference traceReference(const scene::Scene& scene, std::uint64_t paths, unsigned threads) {
+    SensorGroup all{{}, reference::kBenchmarkSensors};
+    for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+        all.objects.push_back(object);
+    }
+    return traceReference(scene, paths, threads, std::span(&all, 1));
+}
+
+Reference traceReference(const scene::Scene& scene, std::uint64_t paths, unsigned threads,
+                         std::span<const SensorGroup> groups) {
     const base::Executor executor(threads);
     const rays::RayScene rays(scene, executor);
     const hierarchy::ReachedSides reached = hierarchy::findReachedSides(scene, rays, executor, kSeed);
-    std::vector<reference::ObjectSide> sides;
-    for (std::uint32_t object = 0; object < reached.sides.size(); ++object) {
-        for (const bool back : {false, true}) {
-            if (reached.isReached(object, back)) {
-                sides.push_back({object, back});
-            }
-        }
-    }
     Reference result;
     std::vector<scene::Sensor> sensors;
-    for (const scene::Sensor& s :
-         reference::randomSensors(scene, sides, reference::kBenchmarkSensors, reference::kBenchmarkSeed)) {
-        if (isHidden(rays, reached, s)) {
-            ++result.hiddenCount;
-        } else {
-            sensors.push_back(s);
+    for (const SensorGroup& group : groups) {
+        std::vector<reference::ObjectSide> sides;
+        for (const std::uint32_t object : group.objects) {
+            for (const bool back : {false, true}) {
+                if (reached.isReached(object, back)) {
+                    sides.push_back({object, back});
+                }
+            }
+        }
+        for (const scene::Sensor& s :
+             reference::randomSensors(scene, sides, group.count, reference::kBenchmarkSeed)) {
+            if (isHidden(rays, reached, s)) {
+                ++result.hiddenCount;
+            } else {
+                sensors.push_back(s);
+            }
         }
     }
     const reference::PathResult traced =

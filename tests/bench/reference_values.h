@@ -33,6 +33,15 @@ double noiseSquare(std::span<const ReferencePoint> points);
 /// Draws the benchmark sensors over the sides that light reaches and traces `paths` from each.
 Reference traceReference(const scene::Scene& scene, std::uint64_t paths, unsigned threads);
 
+/// Sensors that share some objects.
+struct SensorGroup {
+    std::vector<std::uint32_t> objects;
+    std::size_t count = 0;
+};
+/// The same with a part of the sensors for each group.
+Reference traceReference(const scene::Scene& scene, std::uint64_t paths, unsigned threads,
+                         std::span<const SensorGroup> groups);
+
 /// Rows x,y,z,nx,ny,nz,E_r,E_g,E_b,se_r,se_g,se_b below a header. Both throw base::FileError.
 void writeReference(const std::filesystem::path& file, const Reference& reference);
 /// Points that are missing from the number of benchmark sensors count as hidden.

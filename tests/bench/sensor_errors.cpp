@@ -78,23 +78,30 @@ ErrorFigures compare(const std::vector<Rgb>& values, const std::vector<Reference
     return figures;
 }
 
-SensorErrors::SensorErrors(const solve::Problem& problem, const std::vector<ReferencePoint>& reference)
-    : reference_(reference), tolerance_(kMeshReach * problem.scene->bounds().diagonal()) {
-    const double reach = kSensorReach * problem.scene->bounds().diagonal();
+std::vector<Site> findSites(const scene::Scene& scene, const rays::RayScene& rays,
+                            const std::vector<ReferencePoint>& reference) {
+    const double reach = kSensorReach * scene.bounds().diagonal();
+    std::vector<Site> sites;
     for (const ReferencePoint& point : reference) {
         const scene::Sensor& s = point.sensor;
         const rays::Ray back{base::Vec3(s.position + reach * s.normal), 0.0f, base::Vec3(-s.normal),
                              static_cast<float>(2.0 * reach)};
-        const auto hit = problem.rays.closest(back);
+        const auto hit = rays.closest(back);
         if (!hit) {
-            throw base::FileError("reference", "sensor " + std::to_string(sites_.size() + 1),
+            throw base::FileError("reference", "sensor " + std::to_string(sites.size() + 1),
                                   "lies on no surface of the scene");
         }
         const std::uint32_t object = base::index(hit->object);
-        const surface::Surface& surface = *problem.scene->objects[object].surface;
-        sites_.push_back({object, hit->patch, hit->back, surface.locate(hit->patch, s.position)});
+        const surface::Surface& surface = *scene.objects[object].surface;
+        sites.push_back({object, hit->patch, hit->back, surface.locate(hit->patch, s.position)});
     }
+    return sites;
 }
+
+SensorErrors::SensorErrors(const solve::Problem& problem, const std::vector<ReferencePoint>& reference)
+    : reference_(reference),
+      sites_(findSites(*problem.scene, problem.rays, reference)),
+      tolerance_(kMeshReach * problem.scene->bounds().diagonal()) {}
 
 ErrorFigures SensorErrors::ofLeaves(const solve::Problem& problem) const {
     std::vector<Rgb> values;

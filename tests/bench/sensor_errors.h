@@ -30,6 +30,18 @@ NoiseFigures noiseOf(const std::vector<ReferencePoint>& reference);
 
 ErrorFigures compare(const std::vector<Rgb>& values, const std::vector<ReferencePoint>& reference);
 
+/// Where a sensor lies on its object.
+struct Site {
+    std::uint32_t object = 0;
+    std::uint32_t patch = 0;
+    bool back = false;
+    base::Vec2d uv{};
+};
+
+/// Sites of a reference's points. Throws base::FileError where a point lies on no surface of the scene.
+std::vector<Site> findSites(const scene::Scene& scene, const rays::RayScene& rays,
+                            const std::vector<ReferencePoint>& reference);
+
 /// Reads solutions of one scene at its benchmark sensors.
 class SensorErrors {
   public:
@@ -44,13 +56,6 @@ class SensorErrors {
     ErrorFigures ofGathered(const solve::Solver& solver) const;
 
   private:
-    struct Site {
-        std::uint32_t object = 0;
-        std::uint32_t patch = 0;
-        bool back = false;
-        base::Vec2d uv{};
-    };
-
     const std::vector<ReferencePoint>& reference_;
     std::vector<Site> sites_;
     double tolerance_ = 0.0;

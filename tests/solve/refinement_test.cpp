@@ -41,6 +41,25 @@ constexpr double kThreshold = 1e-5;  // lux, the first; the mean is 1e-2
 
 }  // namespace
 
+TEST(Refinement, weightOfCurvatureLeavesPlanarScenesAlone) {
+    const auto solve = [](double weight) {
+        solve::Options options;
+        options.curvatureWeight = weight;
+        auto problem = test::makeProblem(*scene::buildScene("cornell-box-unit"), options);
+        for (const double threshold : {kThreshold, .25 * kThreshold}) {
+            test::refine(*problem, threshold);
+            test::converge(*problem, 1e-3);
+        }
+        return problem;
+    };
+    const auto without = solve(0.0);
+    const auto with = solve(8.0);
+    EXPECT_EQ(linkNames(*without), linkNames(*with));
+    for (const NodeId id : test::leavesOf(without->hierarchy)) {
+        EXPECT_EQ(without->hierarchy.light(id).irradiance, with->hierarchy.light(id).irradiance);
+    }
+}
+
 // Nothing is swept in between, so radiosities are those of the start.
 TEST(Refinement, stepsLeadToTheSameLinks) {
     const auto light = [](Problem& problem) {

@@ -27,6 +27,8 @@ LinkBounds randomBounds(base::RandomStream& random) {
     k.isMixed = random.next() < 0.5;
     k.spreadA = draw(0.0, 2.0);
     k.spreadB = draw(0.0, 2.0);
+    k.curvatureA = draw(0.0, 1.0);
+    k.curvatureB = draw(0.0, 1.0);
     k.radiosityA = draw(0.0, 100.0);
     k.radiosityB = draw(0.0, 100.0);
     k.residualA = draw(0.0, 20.0);
@@ -45,6 +47,7 @@ LinkBounds randomBounds(base::RandomStream& random) {
 // Swaps the roles of the two ends.
 LinkBounds swapped(LinkBounds k) {
     std::swap(k.spreadA, k.spreadB);
+    std::swap(k.curvatureA, k.curvatureB);
     std::swap(k.radiosityA, k.radiosityB);
     std::swap(k.residualA, k.residualB);
     std::swap(k.rangeA, k.rangeB);
@@ -221,6 +224,36 @@ TEST(VisibilityUpperBound, isAboveTheEstimateAndNotAboveOne) {
     }
     EXPECT_GT(transport::visibilityUpperBound(0.0f, 16), 0.1f)
         << "no ray came through, yet it is not certain";
+}
+
+TEST(Oracle, curvatureIsThatOfTheCosines) {
+    using transport::boundCurvature;
+    for (const float angle : {0.0f, 0.4f, 1.2f, 1.6f, 3.0f}) {
+        EXPECT_EQ(boundCurvature(angle, 0.0f), 0.0f);
+    }
+    // All above the horizon: the cosines of the ends have the mean cos(angle) cos(halfAngle).
+    for (const float angle : {0.5f, 0.8f, 1.0f}) {
+        const float tangent = std::tan(0.2f);
+        EXPECT_NEAR(boundCurvature(angle, 0.4f), 2.0f * tangent * tangent, 1e-5f);
+    }
+    EXPECT_GT(boundCurvature(1.4f, 0.4f), boundCurvature(1.0f, 0.4f));
+    EXPECT_GT(boundCurvature(1.6f, 0.4f), boundCurvature(1.4f, 0.4f));
+    EXPECT_LE(boundCurvature(3.0f, 0.4f), 64.0f);
+}
+
+TEST(Oracle, selfLinksOfCapsAreBounded) {
+    // Inside of a sphere a cap sees sin2(halfAngle / 2) of itself.
+    EXPECT_EQ(transport::assessSelf(OracleKind::bf, {1.0f, 0.0f, 100.0f, 1.0f}), 0.0f);
+    for (const float halfAngle : {0.01f, 0.1f, 0.5f, 1.0f, 1.5f, 3.0f}) {
+        const float seen = std::sin(0.5f * halfAngle) * std::sin(0.5f * halfAngle);
+        const float irradiance = transport::assessSelf(OracleKind::bf, {2.0f, halfAngle, 100.0f, 50.0f});
+        EXPECT_GE(irradiance, 100.0f * seen);
+        EXPECT_LE(irradiance, std::min(100.0f, 17.0f * 100.0f * seen));
+        for (const OracleKind oracle : {OracleKind::bounded, OracleKind::bfa}) {
+            EXPECT_FLOAT_EQ(transport::assessSelf(oracle, {2.0f, halfAngle, 100.0f, 50.0f}),
+                            irradiance * 2.0f / 50.0f);
+        }
+    }
 }
 
 }  // namespace
