@@ -1,7 +1,10 @@
 #include <array>
+#include <cmath>
 
+#include "core/base/photometry.h"
 #include "core/scene/gallery.h"
 #include "core/scene/shapes.h"
+#include "core/surface/torus.h"
 
 namespace fluxwalk::scene::gallery {
 
@@ -9,75 +12,77 @@ namespace {
 
 constexpr unsigned kSegments = 6;
 
-constexpr std::array<LatheRing, 6> kAmphora{
-    {{0.09, 0.0}, {0.13, 0.14}, {0.25, 0.36}, {0.12, 0.52}, {0.065, 0.60}, {0.13, 0.68}}};
-constexpr std::array<LatheRing, 6> kBottle{
-    {{0.13, 0.0}, {0.20, 0.10}, {0.19, 0.26}, {0.05, 0.36}, {0.045, 0.60}, {0.07, 0.72}}};
-constexpr std::array<LatheRing, 5> kBowl{
-    {{0.08, 0.0}, {0.07, 0.07}, {0.19, 0.14}, {0.29, 0.26}, {0.30, 0.40}}};
+constexpr std::array<LatheRing, 5> kAmphora{
+    {{0.075, 0.0}, {0.17, 0.20}, {0.26, 0.42}, {0.05, 0.55}, {0.12, 0.68}}};
+constexpr std::array<LatheRing, 5> kBottle{
+    {{0.12, 0.0}, {0.235, 0.10}, {0.15, 0.32}, {0.02, 0.42}, {0.06, 0.75}}};
+constexpr std::array<LatheRing, 4> kBowl{{{0.09, 0.0}, {0.06, 0.08}, {0.28, 0.18}, {0.27, 0.42}}};
 
-void addVase(Scene& scene, std::string name, const Rgb& glaze, const Vec3d& foot,
-             std::span<const LatheRing> rings) {
-    const std::uint32_t material = addMaterial(scene, name + " glaze", glaze);
-    addSubdivision(scene, std::move(name), material, turnCage(foot, rings, kSegments));
-}
-
+// Vessels stand open on their plinths; a disk closes narrow necks a little below the rim.
 void addVases(Scene& scene, std::uint32_t white) {
-    constexpr double kHalf = 0.21;
-    for (const Vec3d& foot : vaseFeet()) {
-        addPolygons(
-            scene, "plinth", white,
-            boxFaces({foot.x - kHalf, 0.0, foot.z - kHalf}, foot + Vec3d(kHalf, 0.0, kHalf), kStanding));
+    constexpr double kHalf = 0.2;
+    for (const double x : kPlinthX) {
+        addPolygons(scene, "plinth", white,
+                    boxFaces({x - kHalf, 0.0, kPlinthZ - kHalf}, {x + kHalf, kPlinthHeight, kPlinthZ + kHalf},
+                             kStanding));
     }
-    addVase(scene, "amphora", {0.64f, 0.22f, 0.11f}, vaseFeet()[0], kAmphora);
-    addVase(scene, "bottle", {0.06f, 0.16f, 0.46f}, vaseFeet()[1], kBottle);
-    addVase(scene, "bowl", {0.36f, 0.58f, 0.44f}, vaseFeet()[2], kBowl);
+    struct Vase {
+        const char* name;
+        Rgb glaze;
+        std::span<const LatheRing> rings;
+    };
+    const std::array<Vase, 3> vases{{{"amphora", {0.66f, 0.24f, 0.11f}, kAmphora},
+                                     {"bottle", {0.07f, 0.18f, 0.50f}, kBottle},
+                                     {"bowl", {0.40f, 0.62f, 0.46f}, kBowl}}};
+    for (std::size_t i = 0; i < vases.size(); ++i) {
+        const std::uint32_t glaze = addMaterial(scene, vases[i].name + std::string(" glaze"), vases[i].glaze);
+        addSubdivision(scene, vases[i].name, glaze,
+                       turnCage({kPlinthX[i], kPlinthHeight, kPlinthZ}, vases[i].rings, kSegments));
+    }
 }
 
-void addSculptures(Scene& scene, std::uint32_t white) {
-    constexpr double kRing = 0.72;
+void addTorusOnDrum(Scene& scene) {
+    constexpr double kRing = 0.70;
     constexpr double kTube = 0.21;
-    constexpr double kDrum = 0.35;
-    const Vec3d drum(10.9, 0.0, kMiddle);
-    const std::uint32_t stone = addMaterial(scene, "dark stone", Rgb(0.16f, 0.155f, 0.15f));
-    const std::uint32_t vermilion = addMaterial(scene, "vermilion", {0.78f, 0.16f, 0.06f});
-    addCylinder(scene, "drum", stone, drum, 0.75, kDrum);
-    addDisk(scene, "drum top", stone, drum + Vec3d(0.0, kDrum, 0.0), 0.75);
-    addStandingTorus(scene, "torus", vermilion, drum + Vec3d(0.0, kDrum + kRing + kTube, 0.0), kRing, kTube,
-                     25.0);
+    constexpr double kDrumRadius = 0.72;
+    constexpr double kDrum = 0.32;
+    const Vec3d drum(11.2, 0.0, kMiddle);
+    const std::uint32_t stone = addMaterial(scene, "dark stone", {0.16f, 0.155f, 0.15f});
+    const std::uint32_t vermilion = addMaterial(scene, "vermilion", {0.80f, 0.17f, 0.06f});
+    addCylinder(scene, "drum", stone, drum, kDrumRadius, kDrum);
+    addDisk(scene, "drum top", stone, drum + Vec3d(0.0, kDrum, 0.0), kDrumRadius);
+    constexpr double kTurn = 28.0 * base::kPi / 180.0;
+    const Vec3d axis(std::cos(kTurn), 0.0, std::sin(kTurn));
+    addSurface(scene, "torus", vermilion,
+               std::make_shared<surface::Torus>(turnTo(axis, drum + Vec3d(0.0, kDrum + kRing + kTube, 0.0)),
+                                                kRing, kTube));
+}
 
+void addSpheres(Scene& scene, std::uint32_t white) {
     struct Ball {
         const char* name;
-        Rgb color;
-        Vec3d foot;
+        Rgb paint;
+        double x;
+        double z;
         double radius;
     };
-    const std::array<Ball, 4> balls{{{"white sphere", {0.86f, 0.85f, 0.83f}, {6.9, 0.0, 3.35}, 0.55},
-                                     {"ochre sphere", {0.78f, 0.50f, 0.10f}, {6.05, 0.0, 3.15}, 0.20},
-                                     {"blue sphere", {0.10f, 0.24f, 0.60f}, {6.35, 0.0, 4.05}, 0.28},
-                                     {"red sphere", {0.70f, 0.10f, 0.09f}, {5.82, 0.0, 3.72}, 0.13}}};
+    const std::array<Ball, 3> balls{{{"ochre sphere", {0.78f, 0.50f, 0.10f}, 6.35, 3.05, 0.20},
+                                     {"blue sphere", {0.10f, 0.24f, 0.60f}, 6.62, 4.08, 0.28},
+                                     {"red sphere", {0.70f, 0.10f, 0.09f}, 6.10, 3.72, 0.13}}};
+    addSphere(scene, "white sphere", white, {7.3, 0.55, 3.4}, 0.55);
     for (const Ball& ball : balls) {
-        const bool isWhite = ball.radius > 0.5;
-        const std::uint32_t material =
-            isWhite ? white : addMaterial(scene, std::string(ball.name) + " paint", ball.color);
-        addSphere(scene, ball.name, material, ball.foot + Vec3d(0.0, ball.radius, 0.0), ball.radius);
+        addSphere(scene, ball.name, addMaterial(scene, ball.name, ball.paint), {ball.x, ball.radius, ball.z},
+                  ball.radius);
     }
 }
 
 }  // namespace
 
-const std::array<Vec3d, 3>& vaseFeet() {
-    static const std::array<Vec3d, 3> kFeet{
-        {{4.6, kVasePlinth, 5.9}, {5.6, kVasePlinth, 5.9}, {8.6, kVasePlinth, 5.9}}};
-    return kFeet;
-}
-
 void addExhibits(Scene& scene) {
-    const std::uint32_t white = addMaterial(scene, "gloss white", {0.85f, 0.84f, 0.82f});
+    const std::uint32_t white = addMaterial(scene, "matt white", {0.85f, 0.84f, 0.82f});
     addVases(scene, white);
-    addSculptures(scene, white);
-    addPictures(scene);
-    addBenches(scene);
+    addTorusOnDrum(scene);
+    addSpheres(scene, white);
 }
 
 }  // namespace fluxwalk::scene::gallery

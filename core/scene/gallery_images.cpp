@@ -126,7 +126,7 @@ Color paintBlocks(const base::Vec2d& at) {
 }  // namespace
 
 Image drawFloor() {
-    // Sticks of 1 : 4 laid at right angles in steps; the pattern repeats after 4 x 4 sticks' widths...
+    // Sticks of 1 : 4, each row a step on from the last; the pattern repeats after 8 widths.
     constexpr unsigned kSticks = 16;
     return draw("herringbone", 512, 512, [](const base::Vec2d& at) {
         const double x = at.x * kSticks;

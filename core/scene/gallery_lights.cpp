@@ -3,90 +3,84 @@
 #include "core/base/photometry.h"
 #include "core/scene/gallery.h"
 #include "core/scene/shapes.h"
+#include "core/surface/disk.h"
+#include "core/surface/torus.h"
 
 namespace fluxwalk::scene::gallery {
 
 namespace {
 
-constexpr std::array<double, 6> kWasherX{0.0, 1.5, 6.0, 8.0, 12.5, kLength};
-constexpr std::array<double, 4> kWasherZ{0.0, 0.6, 0.8, 1.85};
+/// Colours of light, about 7,000 K, 3,500 K and 2,800 K, and of a rose tube; their luminance plays no part.
+constexpr Rgb kDaylight(0.80f, 1.0f, 1.32f);
+constexpr Rgb kNeutral(1.16f, 0.99f, 0.72f);
+constexpr Rgb kWarm(1.40f, 0.94f, 0.48f);
+constexpr Rgb kRose(1.9f, 0.52f, 1.15f);
 
-// Cells of both ceilings; the middle row's second and fourth are openings.
-Quads ceilingCells(bool openings) {
-    Quads cells;
-    for (std::size_t i = 0; i + 1 < kWasherX.size(); ++i) {
-        for (std::size_t j = 0; j + 1 < kWasherZ.size(); ++j) {
-            if ((j == 1 && i % 2 == 1) != openings) {
-                continue;
-            }
-            const auto cell = [&](double z0, double z1) {
-                const Quads faces =
-                    boxFaces({kWasherX[i], kSpring, z0}, {kWasherX[i + 1], kSpring, z1}, kBottom);
-                cells.push_back(faces.front());
-            };
-            cell(kWasherZ[j], kWasherZ[j + 1]);
-            cell(kWidth - kWasherZ[j + 1], kWidth - kWasherZ[j]);
-        }
-    }
-    return cells;
+// A material that sends so many lumens of a colour from so many square metres.
+std::uint32_t addGlow(Scene& scene, std::string name, const Rgb& colour, double lumens, double area) {
+    const auto scale = static_cast<float>(lumens / (area * static_cast<double>(base::luminance(colour))));
+    return addMaterial(scene, std::move(name), Rgb(0.75f), colour * scale);
 }
 
-double areaOf(const Quads& rectangles) {
-    double sum = 0.0;
-    for (const Quad& q : rectangles) {
-        sum += glm::length(glm::cross(q[1] - q[0], q[3] - q[0]));
-    }
-    return sum;
+// A round window in the far wall. Its frame's ring touches the wall, and the pane the ring, where their
+// patches end.
+void addWindow(Scene& scene, std::uint32_t frame) {
+    constexpr double kPane = 0.85;
+    constexpr double kRing = 0.06;
+    const base::Mat4d map = turnTo({-1.0, 0.0, 0.0}, {kLength - kRing, 3.15, kMiddle});
+    const std::uint32_t daylight = addGlow(scene, "daylight", kDaylight, 5000.0, base::kPi * kPane * kPane);
+    addSurface(scene, "window", daylight, std::make_shared<surface::Disk>(map, kPane));
+    addSurface(scene, "window frame", frame, std::make_shared<surface::Torus>(map, kPane + kRing, kRing));
 }
 
-// A shade with a bulb in its mouth, on a cord from the vault.
-void addHangingLamp(Scene& scene, const Vec3d& mouth, std::uint32_t bulb, std::uint32_t shade,
-                    std::uint32_t cord) {
-    constexpr double kMouth = 0.21;
-    constexpr double kCrown = 0.06;
-    constexpr double kHeight = 0.20;
-    constexpr double kBulbHeight = 0.10;
+// The tops of the beams, open along their middle.
+void addCoves(Scene& scene) {
+    constexpr double kHalf = 0.07;
+    const std::uint32_t white = addMaterial(scene, "cove", Rgb(0.82f, 0.81f, 0.78f));
+    const std::uint32_t glow = addGlow(scene, "cove light", kNeutral, 4500.0, kLength * 2.0 * kHalf);
+    for (const double z : {kMiddle - kColonnade, kMiddle + kColonnade}) {
+        const auto strip = [&](double from, double to) {
+            return boxFaces({0.0, kBeamUnder, z + from}, {kLength, kBeamTop, z + to}, kTop);
+        };
+        addPolygons(scene, "beam top", white, join({strip(-kBeamHalf, -kHalf), strip(kHalf, kBeamHalf)}));
+        addPolygons(scene, "cove light", glow, strip(-kHalf, kHalf));
+    }
+}
+
+// A shade with a bulb in it, on a cord from the vault.
+void addHangingLamp(Scene& scene, const Vec3d& mouth, std::uint32_t bulb, double bulbRadius,
+                    std::uint32_t shade, std::uint32_t cord) {
+    constexpr double kMouth = 0.20;
+    constexpr double kCrown = 0.05;
+    constexpr double kHeight = 0.19;
     addCone(scene, "lampshade", shade, mouth, kMouth, kCrown, kHeight);
-    addSphere(scene, "bulb", bulb, mouth + Vec3d(0.0, kBulbHeight, 0.0), kBulbRadius);
-    const double top = vaultHeight(std::abs(mouth.z - kMiddle));
+    addSphere(scene, "bulb", bulb, mouth + Vec3d(0.0, 0.09, 0.0), bulbRadius);
+    const double aside = mouth.z - kMiddle;
     const double foot = mouth.y + kHeight;
-    addCylinder(scene, "cord", cord, {mouth.x, foot, mouth.z}, 0.007, top - foot);
+    addCylinder(scene, "cord", cord, {mouth.x, foot, mouth.z}, 0.006,
+                std::sqrt(kRadius * kRadius - aside * aside) - foot);
 }
 
 }  // namespace
 
-std::uint32_t addGlow(Scene& scene, std::string name, const Rgb& colour, double lumens, double area) {
-    const Rgb exitance = colour * static_cast<float>(lumens / (area * double{base::luminance(colour)}));
-    return addMaterial(scene, std::move(name), Rgb(0.75f), exitance);
-}
-
-Quads washerOpenings() {
-    return ceilingCells(true);
-}
-
-Quads ceilingsAroundWashers() {
-    return ceilingCells(false);
-}
-
 void addLights(Scene& scene) {
-    const Quads openings = washerOpenings();
-    addPolygons(scene, "wall washers", addGlow(scene, "washer", kNeutral, 7000.0, areaOf(openings)),
-                openings);
-
     const std::uint32_t brass = addMaterial(scene, "brass", {0.62f, 0.46f, 0.22f});
     const std::uint32_t black = addMaterial(scene, "black", Rgb(0.05f));
-    const double bulbArea = 4.0 * base::kPi * kBulbRadius * kBulbRadius;
-    const std::uint32_t bulb = addGlow(scene, "bulb", kWarm, 1100.0, bulbArea);
-    for (const Vec3d& foot : vaseFeet()) {
-        addHangingLamp(scene, {foot.x, 2.35, foot.z}, bulb, brass, black);
+    addWindow(scene, brass);
+    addCoves(scene);
+
+    constexpr double kBulb = 0.055;
+    const std::uint32_t bulb = addGlow(scene, "bulb", kWarm, 1000.0, 4.0 * base::kPi * kBulb * kBulb);
+    for (const double x : kPlinthX) {
+        addHangingLamp(scene, {x, 2.25, kPlinthZ}, bulb, kBulb, brass, black);
     }
 
-    constexpr double kTubeRadius = 0.03;
-    constexpr double kTubeHeight = 2.2;
-    const std::uint32_t rose =
-        addGlow(scene, "rose", kRose, 900.0, 2.0 * base::kPi * kTubeRadius * kTubeHeight);
-    addCylinder(scene, "glowing tube", rose, {kLength - 0.4, 0.0, 0.4}, kTubeRadius, kTubeHeight);
-    addDisk(scene, "tube cap", black, {kLength - 0.4, kTubeHeight, 0.4}, kTubeRadius);
+    constexpr double kTube = 0.035;
+    constexpr double kTubeHeight = 1.8;
+    const Vec3d foot(kLength - 0.35, 0.0, kMiddle - 3.35);
+    const std::uint32_t rose = addGlow(scene, "rose", kRose, 1200.0, 2.0 * base::kPi * kTube * kTubeHeight);
+    addCylinder(scene, "glowing tube", rose, foot, kTube, kTubeHeight);
+    addDisk(scene, "tube cap", black, foot + Vec3d(0.0, kTubeHeight, 0.0), kTube);
 }
 
 }  // namespace fluxwalk::scene::gallery

@@ -20,54 +20,53 @@ base::Mat4d moveTo(const Vec3d& place) {
     return glm::translate(base::Mat4d(1.0), place);
 }
 
-void add(Scene& scene, std::string name, std::uint32_t material,
-         std::shared_ptr<const surface::Surface> surface) {
+}  // namespace
+
+void addSurface(Scene& scene, std::string name, std::uint32_t material,
+                std::shared_ptr<const surface::Surface> surface) {
     scene.objects.push_back({std::move(name), std::move(surface), material});
 }
 
-}  // namespace
+base::Mat4d turnTo(const Vec3d& axis, const Vec3d& place) {
+    const Vec3d down(0.0, -1.0, 0.0);
+    return base::Mat4d(glm::dvec4(down, 0.0), glm::dvec4(axis, 0.0), glm::dvec4(glm::cross(down, axis), 0.0),
+                       glm::dvec4(place, 1.0));
+}
 
 void addSphere(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center, double radius) {
-    add(scene, std::move(name), material, std::make_shared<surface::Sphere>(center, radius));
+    addSurface(scene, std::move(name), material, std::make_shared<surface::Sphere>(center, radius));
 }
 
 void addCylinder(Scene& scene, std::string name, std::uint32_t material, const Vec3d& foot, double radius,
                  double height) {
     const Vec3d middle = foot + Vec3d(0.0, 0.5 * height, 0.0);
-    add(scene, std::move(name), material,
-        std::make_shared<surface::Cylinder>(moveTo(middle), radius, height));
+    addSurface(scene, std::move(name), material,
+               std::make_shared<surface::Cylinder>(moveTo(middle), radius, height));
 }
 
 void addCone(Scene& scene, std::string name, std::uint32_t material, const Vec3d& foot, double radiusBottom,
              double radiusTop, double height) {
     const Vec3d middle = foot + Vec3d(0.0, 0.5 * height, 0.0);
-    add(scene, std::move(name), material,
-        std::make_shared<surface::Cone>(moveTo(middle), radiusBottom, radiusTop, height));
+    addSurface(scene, std::move(name), material,
+               std::make_shared<surface::Cone>(moveTo(middle), radiusBottom, radiusTop, height));
 }
 
 void addDisk(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center, double radius,
              double innerRadius) {
-    add(scene, std::move(name), material,
-        std::make_shared<surface::Disk>(moveTo(center), radius, innerRadius));
+    addSurface(scene, std::move(name), material,
+               std::make_shared<surface::Disk>(moveTo(center), radius, innerRadius));
 }
 
 void addTorus(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center, double majorRadius,
               double minorRadius) {
-    add(scene, std::move(name), material,
-        std::make_shared<surface::Torus>(moveTo(center), majorRadius, minorRadius));
-}
-
-void addStandingTorus(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center,
-                      double majorRadius, double minorRadius, double axisDegrees) {
-    base::Mat4d map = glm::rotate(moveTo(center), axisDegrees * base::kPi / 180.0, Vec3d(0.0, 1.0, 0.0));
-    map = glm::rotate(map, -0.5 * base::kPi, Vec3d(0.0, 0.0, 1.0));
-    add(scene, std::move(name), material, std::make_shared<surface::Torus>(map, majorRadius, minorRadius));
+    addSurface(scene, std::move(name), material,
+               std::make_shared<surface::Torus>(moveTo(center), majorRadius, minorRadius));
 }
 
 void addSubdivision(Scene& scene, std::string name, std::uint32_t material,
                     const surface::ControlCage& cage) {
     FLUXWALK_CHECK(!surface::findDefect(cage));
-    add(scene, std::move(name), material, std::make_shared<surface::SubdivisionSurface>(cage));
+    addSurface(scene, std::move(name), material, std::make_shared<surface::SubdivisionSurface>(cage));
 }
 
 surface::ControlCage turnCage(const Vec3d& foot, std::span<const LatheRing> rings, unsigned segments) {

@@ -23,12 +23,15 @@ void addCone(Scene& scene, std::string name, std::uint32_t material, const Vec3d
 void addDisk(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center, double radius,
              double innerRadius = 0.0);
 
-/// Torus whose ring lies flat, or stands on edge about an axis turned by `axisDegrees` from +X towards -Z.
+/// Torus whose ring lies flat.
 void addTorus(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center, double majorRadius,
               double minorRadius);
-void addStandingTorus(Scene& scene, std::string name, std::uint32_t material, const Vec3d& center,
-                      double majorRadius, double minorRadius, double axisDegrees);
 
+/// Moves the origin to `place` and turns +Y onto `axis` (unit and level), +X downwards.
+base::Mat4d turnTo(const Vec3d& axis, const Vec3d& place);
+
+void addSurface(Scene& scene, std::string name, std::uint32_t material,
+                std::shared_ptr<const surface::Surface> surface);
 void addSubdivision(Scene& scene, std::string name, std::uint32_t material, const surface::ControlCage& cage);
 
 /// Ring of a turned body: distance from its axis, and height.
