@@ -4,6 +4,8 @@
 #include "core/base/photometry.h"
 #include "core/scene/gallery.h"
 #include "core/scene/shapes.h"
+#include "core/surface/affine_map.h"
+#include "core/surface/sphere.h"
 #include "core/surface/torus.h"
 
 namespace fluxwalk::scene::gallery {
@@ -18,7 +20,8 @@ constexpr std::array<LatheRing, 5> kBottle{
     {{0.12, 0.0}, {0.235, 0.10}, {0.15, 0.32}, {0.02, 0.42}, {0.06, 0.75}}};
 constexpr std::array<LatheRing, 4> kBowl{{{0.09, 0.0}, {0.06, 0.08}, {0.28, 0.18}, {0.27, 0.42}}};
 
-// Vessels stand open on their plinths; a disk closes narrow necks a little below the rim.
+// Vessels without a bottom stand on their plinths. Two have lids into which their rims reach, so that no
+// light gets in.
 void addVases(Scene& scene, std::uint32_t white) {
     constexpr double kHalf = 0.2;
     for (const double x : kPlinthX) {
@@ -36,9 +39,19 @@ void addVases(Scene& scene, std::uint32_t white) {
                                      {"bowl", {0.40f, 0.62f, 0.46f}, kBowl}}};
     for (std::size_t i = 0; i < vases.size(); ++i) {
         const std::uint32_t glaze = addMaterial(scene, vases[i].name + std::string(" glaze"), vases[i].glaze);
+        scene.materials[glaze].doubleSided = true;
         addSubdivision(scene, vases[i].name, glaze,
                        turnCage({kPlinthX[i], kPlinthHeight, kPlinthZ}, vases[i].rings, kSegments));
     }
+    const std::uint32_t lid = addMaterial(scene, "lid glaze", {0.10f, 0.09f, 0.09f});
+    const auto addLid = [&](std::size_t vase, const Vec3d& half, double sunk) {
+        const double rim = kPlinthHeight + vases[vase].rings.back().height;
+        const base::Mat4d place = turnTo({0.0, 0.0, 1.0}, {kPlinthX[vase], rim + half.y - sunk, kPlinthZ});
+        addSurface(scene, vases[vase].name + std::string(" lid"), lid,
+                   std::make_shared<surface::Sphere>(surface::scaledMap(place, {half.y, half.z, half.x})));
+    };
+    addLid(0, {0.15, 0.045, 0.15}, 0.035);
+    addLid(1, {0.085, 0.085, 0.085}, 0.05);
 }
 
 void addTorusOnDrum(Scene& scene) {

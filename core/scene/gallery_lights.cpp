@@ -3,8 +3,8 @@
 #include "core/base/photometry.h"
 #include "core/scene/gallery.h"
 #include "core/scene/shapes.h"
+#include "core/surface/cylinder.h"
 #include "core/surface/disk.h"
-#include "core/surface/torus.h"
 
 namespace fluxwalk::scene::gallery {
 
@@ -22,15 +22,20 @@ std::uint32_t addGlow(Scene& scene, std::string name, const Rgb& colour, double 
     return addMaterial(scene, std::move(name), Rgb(0.75f), colour * scale);
 }
 
-// A round window in the far wall. Its frame's ring touches the wall, and the pane the ring, where their
-// patches end.
+// A round window in the far wall, in a frame that stands out from it.
 void addWindow(Scene& scene, std::uint32_t frame) {
     constexpr double kPane = 0.85;
-    constexpr double kRing = 0.06;
-    const base::Mat4d map = turnTo({-1.0, 0.0, 0.0}, {kLength - kRing, 3.15, kMiddle});
+    constexpr double kFrame = 0.92;
+    constexpr double kDepth = 0.08;
+    const Vec3d axis(-1.0, 0.0, 0.0);
+    const Vec3d onWall(kLength, 3.15, kMiddle);
+    const base::Mat4d front = turnTo(axis, onWall + kDepth * axis);
     const std::uint32_t daylight = addGlow(scene, "daylight", kDaylight, 5000.0, base::kPi * kPane * kPane);
-    addSurface(scene, "window", daylight, std::make_shared<surface::Disk>(map, kPane));
-    addSurface(scene, "window frame", frame, std::make_shared<surface::Torus>(map, kPane + kRing, kRing));
+    addSurface(scene, "window", daylight, std::make_shared<surface::Disk>(front, kPane));
+    addSurface(scene, "window frame", frame, std::make_shared<surface::Disk>(front, kFrame, kPane));
+    addSurface(
+        scene, "window reveal", frame,
+        std::make_shared<surface::Cylinder>(turnTo(axis, onWall + 0.5 * kDepth * axis), kFrame, kDepth));
 }
 
 // The tops of the beams, open along their middle.
@@ -55,9 +60,11 @@ void addHangingLamp(Scene& scene, const Vec3d& mouth, std::uint32_t bulb, double
     constexpr double kHeight = 0.19;
     addCone(scene, "lampshade", shade, mouth, kMouth, kCrown, kHeight);
     addSphere(scene, "bulb", bulb, mouth + Vec3d(0.0, 0.09, 0.0), bulbRadius);
-    const double aside = mouth.z - kMiddle;
+    constexpr double kCord = 0.006;
+    // Up to where its far side meets the vault: nothing of it comes out behind.
+    const double aside = std::abs(mouth.z - kMiddle) + kCord;
     const double foot = mouth.y + kHeight;
-    addCylinder(scene, "cord", cord, {mouth.x, foot, mouth.z}, 0.006,
+    addCylinder(scene, "cord", cord, {mouth.x, foot, mouth.z}, kCord,
                 std::sqrt(kRadius * kRadius - aside * aside) - foot);
 }
 
@@ -65,6 +72,8 @@ void addHangingLamp(Scene& scene, const Vec3d& mouth, std::uint32_t bulb, double
 
 void addLights(Scene& scene) {
     const std::uint32_t brass = addMaterial(scene, "brass", {0.62f, 0.46f, 0.22f});
+    // Other viewers would otherwise leave out the insides of the shades.
+    scene.materials[brass].doubleSided = true;
     const std::uint32_t black = addMaterial(scene, "black", Rgb(0.05f));
     addWindow(scene, brass);
     addCoves(scene);

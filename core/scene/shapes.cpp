@@ -79,8 +79,10 @@ surface::ControlCage turnCage(const Vec3d& foot, std::span<const LatheRing> ring
     surface::ControlCage cage;
     for (const LatheRing& ring : rings) {
         for (unsigned i = 0; i < segments; ++i) {
-            cage.positions.push_back(foot + Vec3d(growth * ring.radius * std::cos(i * step), ring.height,
-                                                  -growth * ring.radius * std::sin(i * step)));
+            // In float, as files keep them.
+            cage.positions.emplace_back(
+                base::Vec3(foot + Vec3d(growth * ring.radius * std::cos(i * step), ring.height,
+                                        -growth * ring.radius * std::sin(i * step))));
         }
     }
     for (std::uint32_t j = 0; j + 1 < rings.size(); ++j) {

@@ -1,5 +1,6 @@
 #include "core/surface/torus_roots.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fluxwalk::surface {
@@ -62,20 +63,42 @@ Few rootsBetween(const Function& f, const Few& stops) {
     return roots;
 }
 
-// `inner`, with the ends of an interval around it.
-Few withEnds(double reach, const Few& inner) {
+/// Part of a line.
+struct Range {
+    double lower = 0.0;
+    double upper = 0.0;
+};
+
+// `inner` as far as it lies within a range, and the range's ends.
+Few withEnds(const Range& range, const Few& inner) {
     Few stops;
-    stops.add(-reach);
+    stops.add(range.lower);
     for (std::size_t i = 0; i < inner.count; ++i) {
-        stops.add(inner.at[i]);
+        if (inner.at[i] > range.lower && inner.at[i] < range.upper) {
+            stops.add(inner.at[i]);
+        }
     }
-    stops.add(reach);
+    stops.add(range.upper);
     return stops;
+}
+
+/// Ranges are this much wider than they need be, so that rounding cuts off nothing.
+constexpr double kWider = 1e-9;
+
+// The part of `range` between the planes that the torus lies between.
+Range withinSlab(double tube, const Vec3d& foot, const Vec3d& along, Range range) {
+    if (std::abs(along.y) < kWider) {
+        return std::abs(foot.y) > tube * (1.0 + kWider) + 4.0 * kWider ? Range{0.0, -1.0} : range;
+    }
+    const double half = tube * (1.0 + kWider) / std::abs(along.y);
+    const double middle = -foot.y / along.y;
+    return {std::max(range.lower, middle - half), std::min(range.upper, middle + half)};
 }
 
 }  // namespace
 
-std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d& along) {
+std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d& along, double from,
+                                     double to) {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     std::array<double, 4> crossings{kInf, kInf, kInf, kInf};
     const double squared = glm::dot(foot, foot);
@@ -83,6 +106,22 @@ std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d
     // Beyond the sphere around the torus by more than rounding, or not finite.
     const double reachSquared = outer * outer * (1.0 + 1e-12) - squared;
     if (!(reachSquared > 0.0)) {
+        return crossings;
+    }
+    const double reach = std::sqrt(reachSquared);
+    const Range range =
+        withinSlab(tube, foot, along, {std::max(-reach, from - kWider), std::min(reach, to + kWider)});
+    if (!(range.lower < range.upper)) {
+        return crossings;
+    }
+    // The distance from the axis is largest at an end: is all of it in the hole?
+    const double hole = (1.0 - tube) * (1.0 - kWider);
+    const auto isInHole = [&](double s) {
+        const double x = foot.x + s * along.x;
+        const double z = foot.z + s * along.z;
+        return x * x + z * z < hole * hole;
+    };
+    if (isInHole(range.lower) && isInHole(range.upper)) {
         return crossings;
     }
     // (|p|^2 + 1 - tube^2)^2 = 4 (x^2 + z^2) along the line is a quartic without cubic term, as the foot is
@@ -97,22 +136,19 @@ std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d
     // the tube is thin.
     const auto fromTube = [&](double s) -> ValueAndSlope {
         const Vec3d p = foot + s * along;
-        const double radius = std::hypot(p.x, p.z);
+        const double radius = std::sqrt(p.x * p.x + p.z * p.z);
         const double h = radius - 1.0;
         const double outwards = radius > 0.0 ? (p.x * along.x + p.z * along.z) / radius : 0.0;
         return {h * h + p.y * p.y - tube * tube, 2.0 * (h * outwards + p.y * along.y)};
     };
-    const double reach = std::sqrt(reachSquared);
     Few turns;
     if (linear < 0.0) {
         const double turn = std::sqrt(-linear / 3.0);
-        if (turn < reach) {
-            turns.add(-turn);
-            turns.add(turn);
-        }
+        turns.add(-turn);
+        turns.add(turn);
     }
-    const Few extremes = rootsBetween(derivative, withEnds(reach, turns));
-    const Few roots = rootsBetween(fromTube, withEnds(reach, extremes));
+    const Few extremes = rootsBetween(derivative, withEnds(range, turns));
+    const Few roots = rootsBetween(fromTube, withEnds(range, extremes));
     for (std::size_t i = 0; i < roots.count && i < crossings.size(); ++i) {
         crossings[i] = roots.at[i];
     }
