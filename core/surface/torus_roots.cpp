@@ -48,37 +48,40 @@ struct Few {
     void add(double s) { at[count++] = s; }
 };
 
-// Roots of a function between neighbouring `stops`, from one to the next of which it rises or falls only.
-template <class Function>
-Few rootsBetween(const Function& f, const Few& stops) {
-    Few roots;
-    double last = f(stops.at[0]).value;
-    for (std::size_t i = 1; i < stops.count; ++i) {
-        const double value = f(stops.at[i]).value;
-        if ((last < 0.0) != (value < 0.0)) {
-            roots.add(rootWithin(f, stops.at[i - 1], stops.at[i], last < 0.0));
-        }
-        last = value;
-    }
-    return roots;
-}
-
 /// Part of a line.
 struct Range {
     double lower = 0.0;
     double upper = 0.0;
 };
 
-// `inner` as far as it lies within a range, and the range's ends.
-Few withEnds(const Range& range, const Few& inner) {
-    Few stops;
-    stops.add(range.lower);
-    for (std::size_t i = 0; i < inner.count; ++i) {
-        if (inner.at[i] > range.lower && inner.at[i] < range.upper) {
-            stops.add(inner.at[i]);
+// Roots of a function between neighbouring `stops`, from one to the next of which it rises or falls only.
+// Stretches outside `range` are left out; the others are searched whole, so that a root's rounding does not
+// depend on the range.
+template <class Function>
+Few rootsBetween(const Function& f, const Few& stops, const Range& range) {
+    Few roots;
+    for (std::size_t i = 1; i < stops.count; ++i) {
+        const double from = stops.at[i - 1];
+        const double to = stops.at[i];
+        if (to < range.lower || from > range.upper) {
+            continue;
+        }
+        const bool startsBelow = f(from).value < 0.0;
+        if (startsBelow != (f(to).value < 0.0)) {
+            roots.add(rootWithin(f, from, to, startsBelow));
         }
     }
-    stops.add(range.upper);
+    return roots;
+}
+
+// `inner`, with the ends of an interval around it.
+Few withEnds(double reach, const Few& inner) {
+    Few stops;
+    stops.add(-reach);
+    for (std::size_t i = 0; i < inner.count; ++i) {
+        stops.add(inner.at[i]);
+    }
+    stops.add(reach);
     return stops;
 }
 
@@ -144,11 +147,13 @@ std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d
     Few turns;
     if (linear < 0.0) {
         const double turn = std::sqrt(-linear / 3.0);
-        turns.add(-turn);
-        turns.add(turn);
+        if (turn < reach) {
+            turns.add(-turn);
+            turns.add(turn);
+        }
     }
-    const Few extremes = rootsBetween(derivative, withEnds(range, turns));
-    const Few roots = rootsBetween(fromTube, withEnds(range, extremes));
+    const Few extremes = rootsBetween(derivative, withEnds(reach, turns), {-reach, reach});
+    const Few roots = rootsBetween(fromTube, withEnds(reach, extremes), range);
     for (std::size_t i = 0; i < roots.count && i < crossings.size(); ++i) {
         crossings[i] = roots.at[i];
     }
