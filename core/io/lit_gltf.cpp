@@ -10,7 +10,7 @@
 #include "core/base/photometry.h"
 #include "core/io/file.h"
 #include "core/io/glb_write.h"
-#include "core/io/image_write.h"
+#include "core/io/gltf_write_parts.h"
 #include "core/io/lit_colors.h"
 #include "core/scene/texture.h"
 
@@ -20,10 +20,6 @@ namespace {
 
 using base::Rgb;
 using nlohmann::json;
-
-json toJson(const Rgb& c) {
-    return {c.r, c.g, c.b};
-}
 
 class LitWriter {
   public:
@@ -50,50 +46,12 @@ class LitWriter {
         }
         writeMeshes(meshes);
         for (const scene::Camera& camera : scene_.cameras) {
-            writeCamera(camera);
+            addNode(cameraNode(glb_, camera));
         }
         return glb_.pack();
     }
 
   private:
-    void useExtension(const char* name) {
-        json& used = glb_.root["extensionsUsed"];
-        if (std::find(used.begin(), used.end(), name) == used.end()) {
-            used.push_back(name);
-        }
-    }
-
-    std::size_t imageIndex(std::int32_t image) {
-        const auto [entry, isNew] = imageIndex_.try_emplace(image, 0);
-        if (isNew) {
-            const scene::Image& picture = scene_.images[static_cast<std::size_t>(image)];
-            const std::size_t view = glb_.addView(encodePng(picture.width, picture.height, 4, picture.rgba));
-            entry->second = glb_.append(
-                "images", {{"name", picture.name}, {"mimeType", "image/png"}, {"bufferView", view}});
-        }
-        return entry->second;
-    }
-
-    json textureInfo(const scene::TextureRef& texture) {
-        const auto wrapMode = [](scene::Wrap wrap) {
-            return wrap == scene::Wrap::repeat ? 10497 : (wrap == scene::Wrap::mirror ? 33648 : 33071);
-        };
-        const std::size_t sampler =
-            glb_.append("samplers", {{"wrapS", wrapMode(texture.wrapU)}, {"wrapT", wrapMode(texture.wrapV)}});
-        const std::size_t index =
-            glb_.append("textures", {{"source", imageIndex(texture.image)}, {"sampler", sampler}});
-        json info = {{"index", index}, {"texCoord", texture.texcoordSet}};
-        const scene::TextureRef plain;
-        if (texture.offset != plain.offset || texture.scale != plain.scale ||
-            texture.rotation != plain.rotation) {
-            useExtension("KHR_texture_transform");
-            info["extensions"]["KHR_texture_transform"] = {{"offset", {texture.offset.x, texture.offset.y}},
-                                                           {"scale", {texture.scale.x, texture.scale.y}},
-                                                           {"rotation", texture.rotation}};
-        }
-        return info;
-    }
-
     json materialJson(const scene::Material& material) {
         json m = {{"name", material.name},
                   {"pbrMetallicRoughness",
@@ -107,7 +65,8 @@ class LitWriter {
                 // The vertex colours carry it: only its mean remains for whoever reads the file back.
                 reflectance *= Rgb(textures_.sample(material.reflectanceTexture, base::Vec2d(0.5), 32.0f));
             } else {
-                m["pbrMetallicRoughness"]["baseColorTexture"] = textureInfo(material.reflectanceTexture);
+                m["pbrMetallicRoughness"]["baseColorTexture"] =
+                    textureWriter_.info(material.reflectanceTexture);
             }
         }
         if (material.alphaMode == scene::AlphaMode::mask) {
@@ -121,12 +80,12 @@ class LitWriter {
                        {"fluxwalk_double_sided", material.doubleSided}};
         if (material.isEmissive()) {
             const float most = std::max({material.emission.r, material.emission.g, material.emission.b});
-            useExtension("KHR_materials_emissive_strength");
+            useExtension(glb_, "KHR_materials_emissive_strength");
             m["emissiveFactor"] = toJson(material.emission / most);
             m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
                 static_cast<double>(most) / base::kPi;
             if (material.emissionTexture.isSet()) {
-                m["emissiveTexture"] = textureInfo(material.emissionTexture);
+                m["emissiveTexture"] = textureWriter_.info(material.emissionTexture);
             }
         }
         return m;
@@ -189,27 +148,11 @@ class LitWriter {
         glb_.root["scenes"][0]["nodes"].push_back(index);
     }
 
-    void writeCamera(const scene::Camera& camera) {
-        const std::size_t index = glb_.append(
-            "cameras", {{"name", camera.name},
-                        {"type", "perspective"},
-                        {"perspective", {{"yfov", camera.verticalFov}, {"znear", camera.nearPlane}}}});
-        const base::Vec3d back = -glm::normalize(camera.forward);
-        const base::Vec3d right = glm::normalize(glm::cross(camera.up, back));
-        const base::Vec3d up = glm::cross(back, right);
-        const base::Vec3d& p = camera.position;
-        addNode({{"name", camera.name},
-                 {"camera", index},
-                 {"matrix",
-                  {right.x, right.y, right.z, 0.0, up.x, up.y, up.z, 0.0, back.x, back.y, back.z, 0.0, p.x,
-                   p.y, p.z, 1.0}}});
-    }
-
     const scene::Scene& scene_;
     scene::TextureSet textures_;
     LitExport settings_;
     GlbBuilder glb_;
-    std::map<std::int32_t, std::size_t> imageIndex_;
+    TextureWriter textureWriter_{glb_, scene_};
 };
 
 }  // namespace

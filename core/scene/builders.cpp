@@ -28,6 +28,7 @@ Scene named(std::string_view name, Scene scene) {
 }
 
 constexpr std::array kScenes{
+    BuiltInScene{"gallery", "the demo: a vaulted hall with columns, vases, a torus and lamps", buildGallery},
     BuiltInScene{"cornell-box", "the Cornell box with a warm lamp of 800 lm", buildLitCornellBox},
     BuiltInScene{"cornell-box-unit",
                  "the Cornell box, lamp 1 lm/m2 in every channel (reference values known)",

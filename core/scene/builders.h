@@ -54,4 +54,7 @@ Scene buildLampBox();
 /// meet rays. Objects: room, lamp, plinth, sculpture.
 Scene buildBlobs();
 
+/// The demo: an exhibition hall with every curved shape in it, daylight at its end and lamps.
+Scene buildGallery();
+
 }  // namespace fluxwalk::scene

@@ -52,11 +52,19 @@ Quads join(std::initializer_list<Quads> parts) {
 }
 
 void addPolygons(Scene& scene, std::string name, std::uint32_t material, const Quads& quads) {
+    addTexturedPolygons(scene, std::move(name), material, quads, {});
+}
+
+void addTexturedPolygons(Scene& scene, std::string name, std::uint32_t material, const Quads& quads,
+                         const std::function<base::Vec2(const Vec3d& place)>& texcoordAt) {
     surface::TriangleSoup soup;
     for (const Quad& quad : quads) {
         const auto first = static_cast<std::uint32_t>(soup.positions.size());
         for (const Vec3d& corner : quad) {
             soup.positions.emplace_back(corner);
+            if (texcoordAt) {
+                soup.texcoords[0].push_back(texcoordAt(corner));
+            }
         }
         soup.triangles.push_back({first, first + 1, first + 2});
         soup.triangles.push_back({first, first + 2, first + 3});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -39,6 +40,10 @@ Quads join(std::initializer_list<Quads> parts);
 /// Adds an object of planar quads; each quad becomes one patch, in order, unless it is not planar (then two:
 /// its diagonal runs from corner 0 to corner 2).
 void addPolygons(Scene& scene, std::string name, std::uint32_t material, const Quads& quads);
+
+/// The same with texture coordinates (set 0), which must be an affine function of the place on each quad.
+void addTexturedPolygons(Scene& scene, std::string name, std::uint32_t material, const Quads& quads,
+                         const std::function<base::Vec2(const Vec3d& place)>& texcoordAt);
 
 /// Adds a material and returns its index.
 std::uint32_t addMaterial(Scene& scene, std::string name, const Rgb& reflectance,

@@ -26,13 +26,17 @@ class RevolvedSegment : public Surface {
     double area(std::uint32_t patch, const Region& region) const override;
     Box bounds() const override;
 
-  protected:
     /// End of the segment in the unit form: distance from the axis +Y, and height.
     struct End {
         double radius = 0.0;
         double height = 0.0;
     };
+    const End& first() const { return first_; }
+    const End& last() const { return last_; }
+    const AffineMap& map() const { return map_; }
+    bool isInside() const { return inside_; }
 
+  protected:
     /// v runs from `first` to `last`. Drawn with the axis upwards at the left of the segment, the front is on
     /// the right of this direction, or on its left if `inside`.
     RevolvedSegment(const base::Mat4d& worldFromUnit, const End& first, const End& last, bool inside);
@@ -43,8 +47,6 @@ class RevolvedSegment : public Surface {
 
     /// Part of the patch's quarter turn at u, and back.
     double partOf(double u) const { return clockwise_ ? 1.0 - u : u; }
-    const AffineMap& map() const { return map_; }
-    bool isInside() const { return inside_; }
 
   private:
     double radiusAt(double v) const { return (1.0 - v) * first_.radius + v * last_.radius; }

@@ -48,6 +48,12 @@ Sphere::Sphere(const base::Mat4d& worldFromUnit, bool inside)
 Sphere::Sphere(const Vec3d& center, double radius, bool inside)
     : Sphere(similarity(center, radius), inside) {}
 
+base::Mat4d Sphere::worldFromUnit() const {
+    base::Mat4d m(linear_);
+    m[3] = glm::dvec4(center_, 1.0);
+    return m;
+}
+
 Sphere::Octant Sphere::octant(std::uint32_t patch) const {
     constexpr std::array<std::array<double, 2>, 4> kEquator{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
     const std::uint32_t quarter = patch & 3u;

@@ -30,6 +30,10 @@ class Sphere final : public Surface {
                                         double tFar) const override;
     Box bounds() const override;
 
+    /// What takes the unit sphere to its place.
+    base::Mat4d worldFromUnit() const;
+    bool isInside() const { return inside_; }
+
   private:
     /// Axes of an octant, counter-clockwise seen from the front. Patches 0..3 are north, 4..7 south; within
     /// each half the octants follow the longitude from +X over -Z, as texture coordinates do.

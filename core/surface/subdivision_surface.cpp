@@ -190,7 +190,7 @@ class SubdivisionSurface::Builder {
     std::unordered_map<std::uint64_t, KnownEdge> known_;
 };
 
-SubdivisionSurface::SubdivisionSurface(const ControlCage& cage) {
+SubdivisionSurface::SubdivisionSurface(const ControlCage& cage) : cage_(cage) {
     const auto defect = findDefect(cage);
     FLUXWALK_CHECK_EQ(defect.value_or(""), "");
     Builder builder(*this, cage);

@@ -36,6 +36,8 @@ class SubdivisionSurface final : public Surface {
                                         double tFar) const override;
     Box bounds() const override;
 
+    const ControlCage& cage() const { return cage_; }
+
   private:
     /// Sides of patches that give an edge its points: one from end to end, or two, half of it each.
     struct Edge {
@@ -62,6 +64,7 @@ class SubdivisionSurface final : public Surface {
 
     Vec3d pointOnEdge(const Edge& edge, double s) const;
 
+    ControlCage cage_;
     std::vector<Edge> edges_;
     std::vector<Patch> patches_;
     std::unique_ptr<const PieceTree> tree_;

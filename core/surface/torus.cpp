@@ -123,7 +123,8 @@ std::optional<SurfaceHit> Torus::intersect(const Vec3d& origin, const Vec3d& dir
     const double rest = -glm::dot(foot, along);
     nearest += rest;
     foot += rest * along;
-    for (const double s : torusCrossings(tube_, foot, along)) {
+    for (const double s :
+         torusCrossings(tube_, foot, along, tNear * length - nearest, tFar * length - nearest)) {
         const double t = (nearest + s) / length;
         if (t > tNear && t < tFar) {
             const Vec3d unit = foot + s * along;

@@ -33,6 +33,11 @@ class Torus final : public Surface {
                                         double tFar) const override;
     Box bounds() const override;
 
+    /// Takes the torus whose ring has radius 1, and whose tube has radius tube(), to its place.
+    const AffineMap& map() const { return map_; }
+    double tube() const { return tube_; }
+    bool isInside() const { return inside_; }
+
   private:
     double partOf(double u) const { return clockwise_ ? 1.0 - u : u; }
     Arc ringArc(std::uint32_t patch, double u0, double u1) const;

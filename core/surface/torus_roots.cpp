@@ -1,5 +1,6 @@
 #include "core/surface/torus_roots.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fluxwalk::surface {
@@ -47,17 +48,28 @@ struct Few {
     void add(double s) { at[count++] = s; }
 };
 
+/// Part of a line.
+struct Range {
+    double lower = 0.0;
+    double upper = 0.0;
+};
+
 // Roots of a function between neighbouring `stops`, from one to the next of which it rises or falls only.
+// Stretches outside `range` are left out; the others are searched whole, so that a root's rounding does not
+// depend on the range.
 template <class Function>
-Few rootsBetween(const Function& f, const Few& stops) {
+Few rootsBetween(const Function& f, const Few& stops, const Range& range) {
     Few roots;
-    double last = f(stops.at[0]).value;
     for (std::size_t i = 1; i < stops.count; ++i) {
-        const double value = f(stops.at[i]).value;
-        if ((last < 0.0) != (value < 0.0)) {
-            roots.add(rootWithin(f, stops.at[i - 1], stops.at[i], last < 0.0));
+        const double from = stops.at[i - 1];
+        const double to = stops.at[i];
+        if (to < range.lower || from > range.upper) {
+            continue;
         }
-        last = value;
+        const bool startsBelow = f(from).value < 0.0;
+        if (startsBelow != (f(to).value < 0.0)) {
+            roots.add(rootWithin(f, from, to, startsBelow));
+        }
     }
     return roots;
 }
@@ -73,9 +85,23 @@ Few withEnds(double reach, const Few& inner) {
     return stops;
 }
 
+/// Ranges are this much wider than they need be, so that rounding cuts off nothing.
+constexpr double kWider = 1e-9;
+
+// The part of `range` between the planes that the torus lies between.
+Range withinSlab(double tube, const Vec3d& foot, const Vec3d& along, Range range) {
+    if (std::abs(along.y) < kWider) {
+        return std::abs(foot.y) > tube * (1.0 + kWider) + 4.0 * kWider ? Range{0.0, -1.0} : range;
+    }
+    const double half = tube * (1.0 + kWider) / std::abs(along.y);
+    const double middle = -foot.y / along.y;
+    return {std::max(range.lower, middle - half), std::min(range.upper, middle + half)};
+}
+
 }  // namespace
 
-std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d& along) {
+std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d& along, double from,
+                                     double to) {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     std::array<double, 4> crossings{kInf, kInf, kInf, kInf};
     const double squared = glm::dot(foot, foot);
@@ -83,6 +109,22 @@ std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d
     // Beyond the sphere around the torus by more than rounding, or not finite.
     const double reachSquared = outer * outer * (1.0 + 1e-12) - squared;
     if (!(reachSquared > 0.0)) {
+        return crossings;
+    }
+    const double reach = std::sqrt(reachSquared);
+    const Range range =
+        withinSlab(tube, foot, along, {std::max(-reach, from - kWider), std::min(reach, to + kWider)});
+    if (!(range.lower < range.upper)) {
+        return crossings;
+    }
+    // The distance from the axis is largest at an end: is all of it in the hole?
+    const double hole = (1.0 - tube) * (1.0 - kWider);
+    const auto isInHole = [&](double s) {
+        const double x = foot.x + s * along.x;
+        const double z = foot.z + s * along.z;
+        return x * x + z * z < hole * hole;
+    };
+    if (isInHole(range.lower) && isInHole(range.upper)) {
         return crossings;
     }
     // (|p|^2 + 1 - tube^2)^2 = 4 (x^2 + z^2) along the line is a quartic without cubic term, as the foot is
@@ -97,12 +139,11 @@ std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d
     // the tube is thin.
     const auto fromTube = [&](double s) -> ValueAndSlope {
         const Vec3d p = foot + s * along;
-        const double radius = std::hypot(p.x, p.z);
+        const double radius = std::sqrt(p.x * p.x + p.z * p.z);
         const double h = radius - 1.0;
         const double outwards = radius > 0.0 ? (p.x * along.x + p.z * along.z) / radius : 0.0;
         return {h * h + p.y * p.y - tube * tube, 2.0 * (h * outwards + p.y * along.y)};
     };
-    const double reach = std::sqrt(reachSquared);
     Few turns;
     if (linear < 0.0) {
         const double turn = std::sqrt(-linear / 3.0);
@@ -111,8 +152,8 @@ std::array<double, 4> torusCrossings(double tube, const Vec3d& foot, const Vec3d
             turns.add(turn);
         }
     }
-    const Few extremes = rootsBetween(derivative, withEnds(reach, turns));
-    const Few roots = rootsBetween(fromTube, withEnds(reach, extremes));
+    const Few extremes = rootsBetween(derivative, withEnds(reach, turns), {-reach, reach});
+    const Few roots = rootsBetween(fromTube, withEnds(reach, extremes), range);
     for (std::size_t i = 0; i < roots.count && i < crossings.size(); ++i) {
         crossings[i] = roots.at[i];
     }
