@@ -90,6 +90,12 @@ FLUXWALK_INLINE LaneMask operator>(const Lanes& a, const Lanes& b) {
 FLUXWALK_INLINE LaneMask operator&(const LaneMask& a, const LaneMask& b) {
     return {a.low & b.low, a.high & b.high};
 }
+FLUXWALK_INLINE LaneMask operator~(const LaneMask& m) {
+    return {~m.low, ~m.high};
+}
+FLUXWALK_INLINE LaneMask& operator&=(LaneMask& a, const LaneMask& b) {
+    return a = a & b;
+}
 FLUXWALK_INLINE LaneMask& operator|=(LaneMask& a, const LaneMask& b) {
     a.low |= b.low;
     a.high |= b.high;

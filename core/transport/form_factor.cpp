@@ -128,7 +128,7 @@ FLUXWALK_INLINE LaneMask facesAll(const Lanes3& x, const ElementPoints& source) 
                            source.position.z[j] - x.z};
         const Lanes there =
             -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z);
-        all &= (there > 0.0) & (there * there > kLeastFacing * kLeastFacing * dot(to, to));
+        all &= (there > splat(0.0)) & (there * there > kLeastFacing * kLeastFacing * dot(to, to));
     }
     return all;
 }
@@ -146,7 +146,7 @@ FLUXWALK_INLINE Lanes nearFactor(const Lanes3& x, const Lanes3& n, const Element
     }
     if (base::anyLane(facing)) {
         const Lanes whole = polygonFactor(x, n, source.contour, source.contourCount, tolerance);
-        factor = facing ? whole : factor;
+        factor = base::select(facing, whole, factor);
         evaluations += 8 * source.contourCount;
     }
     return factor;
