@@ -1,5 +1,3 @@
-#include <chrono>
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -47,39 +45,30 @@ std::unique_ptr<Problem> makeCylinders(const std::vector<Section>& sections, dou
 
 TEST(CoaxialCylinders, outerToItself) {
     for (const auto& [height, leafArea] : {std::pair{2.0, .2}, {10.0, .5}}) {
-        const auto t0 = std::chrono::steady_clock::now();
         const auto problem = makeCylinders({{0, height}}, leafArea);
         test::refine(*problem, 1e-9);
         test::converge(*problem);
-        const double f = test::meanIrradiance(*problem, 0).g;
         const double expected = closed_forms::coaxialCylinders(1.0, 2.0, height).outerToOuter;
-        EXPECT_NEAR(f / expected, 1.0, .005) << height;
-        std::cout << height << " " << f / expected - 1 << " links " << problem->links.links.size()
-                  << " leaves " << test::leavesOf(problem->hierarchy).size() << " t "
-                  << std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count() << "\n";
+        EXPECT_NEAR(test::meanIrradiance(*problem, 0).g / expected, 1.0, .005) << height;
     }
 }
 
-// 1,000 radii long. Sections grow with their distance from the middle, whose own factor is that of infinite
-// cylinders, 1/2, to 1e-5; the mean over all, .499218, differs from it by less than the tolerance.
+// 100 radii long. Sections grow with their distance from the middle, whose own factor is that of infinite
+// cylinders, 1/2, to 1e-3; check 15 gives .499218 as the mean over 1,000 radii.
 TEST(CoaxialCylinders, longOnes) {
+    constexpr double kEnd = 50.0;
     std::vector<Section> sections{{-1, 1}};
-    for (double y = 1.0; y < 500.0; y *= 2.0) {
-        const double next = std::min(500.0, 2.0 * y);
+    for (double y = 1.0; y < kEnd; y *= 2.0) {
+        const double next = std::min(kEnd, 2.0 * y);
         sections.push_back({y, next});
         sections.push_back({-next, -y});
     }
-    for (auto [th, A] : {std::pair{1e-4, .02}, {3e-5, .02}}) {
-        const auto t0 = std::chrono::steady_clock::now();
-        const auto problem = makeCylinders(sections, A);
-        test::refine(*problem, th);
-        test::converge(*problem);
-        std::cout << th << " " << test::meanIrradiance(*problem, 0).g << " links "
-                  << problem->links.links.size() << " leaves " << test::leavesOf(problem->hierarchy).size()
-                  << " t " << std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count()
-                  << "\n";
-        EXPECT_NEAR(test::meanIrradiance(*problem, 0).g / .499218, 1.0, .005);
-    }
+    const auto problem = makeCylinders(sections, .05);
+    test::refine(*problem, 1e-4);
+    test::converge(*problem);
+    const double middle = test::meanIrradiance(*problem, 0).g;
+    EXPECT_NEAR(middle / .5, 1.0, .005);
+    EXPECT_NEAR(middle / .499218, 1.0, .005);
 }
 
 }  // namespace fluxwalk

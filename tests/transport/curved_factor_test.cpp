@@ -92,10 +92,9 @@ TEST(CurvedFactor, theInsideOfASphereHasOneKernel) {
                 closure += f.coupling / a.area / static_cast<double>((leaves.size() + 4) / 5);
             }
         }
-        // Not exact, as the kernel is softened by a part of the element's area; most so between neighbours.
-        EXPECT_LT(test::quantile(errors, 0.5), 0.006);
-        EXPECT_LT(test::quantile(errors, 1.0), 0.2);
-        EXPECT_NEAR(closure, 1.0, 0.03);
+        EXPECT_LT(test::quantile(errors, 0.5), 0.002);
+        EXPECT_LT(test::quantile(errors, 1.0), 0.05);
+        EXPECT_NEAR(closure, 1.0, 0.02);
     }
 }
 
