@@ -10,6 +10,7 @@
 #include "core/scene/builders.h"
 #include "tests/bench/mesh_lookup.h"
 #include "tests/bench/sensor_errors.h"
+#include "tests/support/curved_room.h"
 
 namespace fluxwalk::bench {
 namespace {
@@ -111,6 +112,34 @@ TEST(Reference, refusesTablesWithoutErrors) {
     io::writeFile(file, "x,y,z,nx,ny,nz\n0,0,0,0,1,0\n");
     EXPECT_THROW(readReference(file), base::FileError);
     std::filesystem::remove(file);
+}
+
+// With no more links than BF the bounded oracle leaves at most half its error, in a room of curved objects
+// that a lamp lights from one side.
+TEST(CurvedRoom, boundedOracleHalvesTheErrorOfBf) {
+    const Reference reference =
+        readReference(std::filesystem::path(FLUXWALK_SOURCE_DIR) / "tests/bench/reference/curved-room.csv");
+    const auto scene = std::make_shared<const scene::Scene>(test::buildCurvedRoom());
+    struct Result {
+        std::uint64_t links = 0;
+        double gathered = 0.0;
+        double displayed = 0.0;
+    };
+    const auto solve = [&](solve::OracleKind oracle, double threshold) {
+        solve::Options options;
+        options.oracle = oracle;
+        options.threshold = threshold;
+        solve::Solver solver(scene, options, 2);
+        solver.solve({});
+        const SensorErrors errors(solver.problem(), reference.points);
+        return Result{solver.statistics().counters.links, errors.ofGathered(solver).rms,
+                      errors.ofMeshes(solver.litMeshes(), solver.problem().executor).rms};
+    };
+    const Result bounded = solve(solve::OracleKind::bounded, 0.0027);
+    const Result bf = solve(solve::OracleKind::bf, 3.3);
+    EXPECT_LE(bounded.links, bf.links);
+    EXPECT_LT(2.0 * bounded.gathered, bf.gathered);
+    EXPECT_LT(2.0 * bounded.displayed, bf.displayed);
 }
 
 }  // namespace

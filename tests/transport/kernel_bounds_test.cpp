@@ -1,0 +1,116 @@
+#include "core/transport/kernel_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/photometry.h"
+#include "core/base/random.h"
+#include "core/scene/builders.h"
+#include "core/transport/element_sampler.h"
+#include "core/transport/form_factor.h"
+#include "tests/support/built.h"
+#include "tests/support/curved_room.h"
+#include "tests/support/statistics.h"
+
+namespace fluxwalk {
+namespace {
+
+using base::NodeId;
+using base::Vec3d;
+using hierarchy::Shape;
+
+// Form factor from a point to an element: exact for planar ones, else by points in n x n strata.
+double pointFactor(const hierarchy::Hierarchy& h, const transport::SurfaceSample& x, NodeId source) {
+    const Shape& shape = h.shape(source);
+    if (shape.isPlanar) {
+        return transport::computePointFactor(x.position, x.normal, transport::makeElementPoints(h, source));
+    }
+    const double distance = glm::distance(x.position, Vec3d(shape.center));
+    const unsigned n = distance < 3.0 * static_cast<double>(shape.radius) ? 24 : 6;
+    const transport::ElementSampler sampler(h, source);
+    double sum = 0.0;
+    double measure = 0.0;
+    for (unsigned i = 0; i < n * n; ++i) {
+        const unsigned row = i / n;
+        const transport::SurfaceSample y = sampler.at({(i % n + 0.5) / n, (row + 0.5) / n});
+        const Vec3d d = y.position - x.position;
+        const double r2 = std::max(glm::dot(d, d), 1e-300);
+        sum += y.measure * std::max(0.0, glm::dot(d, x.normal)) * std::max(0.0, -glm::dot(d, y.normal)) /
+               (base::kPi * r2 * r2);
+        measure += y.measure;
+    }
+    return static_cast<double>(shape.area) * sum / measure;
+}
+
+/// The sum over a polygon's edges, of terms up to 1, is off by this where it should be 0 or 1.
+constexpr double kRoundingOfFactor = 1e-15;
+
+struct Quality {
+    int outside = 0;
+    int bounded = 0;                ///< pairs that cannot touch
+    std::vector<double> tightness;  ///< (upper - lower) / factor, of pairs at about four times their radii
+};
+
+// Random points of random pairs of elements, as many on each level of subdivision.
+Quality inspect(scene::Scene scene, unsigned levels, int pairsOnEach) {
+    test::Built built(std::move(scene));
+    Quality quality;
+    std::vector<NodeId> elements;
+    for (unsigned level = 0; level <= levels; ++level) {
+        elements.clear();
+        for (const NodeId patch : built.tree.patches()) {
+            const std::vector<NodeId> below = built.leavesOf(patch);
+            elements.insert(elements.end(), below.begin(), below.end());
+        }
+        base::RandomStream random(70 + level);
+        for (int used = 0; used < pairsOnEach;) {
+            const auto pick = [&] {
+                return elements[static_cast<std::size_t>(random.next() *
+                                                         static_cast<double>(elements.size()))];
+            };
+            const NodeId a = pick();
+            const NodeId b = pick();
+            if (a == b) {
+                continue;
+            }
+            ++used;
+            const transport::ElementSampler sampler(built.tree, a);
+            const transport::SurfaceSample x = sampler.at(random.next2());
+            const double factor = pointFactor(built.tree, x, b);
+            const Shape& from = built.tree.shape(a);
+            const Shape& to = built.tree.shape(b);
+            const transport::FactorBounds bounds = transport::boundPointFactor(from, to);
+            quality.outside +=
+                factor < bounds.lower - kRoundingOfFactor || factor > bounds.upper + kRoundingOfFactor ? 1
+                                                                                                       : 0;
+            quality.bounded += bounds.upper < 1.0 ? 1 : 0;
+            const double distance = static_cast<double>(glm::distance(from.center, to.center)) /
+                                    static_cast<double>(from.radius + to.radius);
+            if (distance > 3.5 && distance < 4.5 && factor > 0.0) {
+                quality.tightness.push_back((bounds.upper - bounds.lower) / factor);
+            }
+        }
+        if (level < levels) {
+            built.split(1);
+        }
+    }
+    return quality;
+}
+
+TEST(KernelBounds, holdAllFactorsOfTheCornellBox) {
+    const Quality quality = inspect(scene::buildCornellBox(base::Rgb(100.0f)), 4, 20000);
+    EXPECT_EQ(quality.outside, 0);
+    EXPECT_GT(quality.bounded, 50000);
+    ASSERT_GT(quality.tightness.size(), 1000u);
+    RecordProperty("tightness", std::to_string(test::quantile(quality.tightness, 0.5)));
+}
+
+TEST(KernelBounds, holdAllFactorsOfCurvedObjects) {
+    const Quality quality = inspect(test::buildCurvedRoom(), 4, 20000);
+    EXPECT_EQ(quality.outside, 0);
+    EXPECT_GT(quality.bounded, 50000);
+    ASSERT_GT(quality.tightness.size(), 1000u);
+    RecordProperty("tightness", std::to_string(test::quantile(quality.tightness, 0.5)));
+}
+
+}  // namespace
+}  // namespace fluxwalk
