@@ -17,26 +17,32 @@ DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
         patchesOf_[problem.hierarchy.name(id).object].push_back(id);
     }
     topologies_.resize(objects);
+    isCurved_.assign(objects, 0);
     problem.executor.forRange(objects, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o) {
+            const surface::Surface& surface = *problem.scene->objects[o].surface;
+            for (std::uint32_t p = 0; p < surface.patchCount() && isCurved_[o] == 0; ++p) {
+                isCurved_[o] = surface.isPlanar(p) ? 0 : 1;
+            }
             if (!patchesOf_[o].empty()) {
-                topologies_[o] = std::make_unique<display::PatchTopology>(*problem.scene->objects[o].surface);
+                topologies_[o] = std::make_unique<display::PatchTopology>(surface);
             }
         }
     });
 }
 
-scene::LitMeshes DisplayUpdate::refresh() {
+void DisplayUpdate::rebuild(double curvatureAngle) {
     const StageTimer timer(problem_.statistics.times.display);
     const hierarchy::Hierarchy& h = problem_.hierarchy;
     display::MeshOptions options;
-    options.curvatureAngle = problem_.options.displayAngle * base::kPi / 180.0;
+    options.curvatureAngle = curvatureAngle;
     problem_.executor.forRange(patchesOf_.size(), 1, [&](std::size_t begin, std::size_t end) {
         std::vector<display::Leaf> leaves;
         std::vector<NodeId> stack;
         for (std::size_t o = begin; o < end; ++o) {
             leaves.clear();
-            std::uint64_t digest = base::mix(std::bit_cast<std::uint64_t>(problem_.options.displayAngle));
+            std::uint64_t digest =
+                isCurved_[o] != 0 ? base::mix(std::bit_cast<std::uint64_t>(curvatureAngle)) : 1;
             for (const NodeId patch : patchesOf_[o]) {
                 stack.push_back(patch);
                 while (!stack.empty()) {
@@ -65,6 +71,10 @@ scene::LitMeshes DisplayUpdate::refresh() {
                                                      problem_.scene->objects[o].material, leaves, options);
         }
     });
+}
+
+scene::LitMeshes DisplayUpdate::refresh() {
+    rebuild(problem_.options.displayAngle * base::kPi / 180.0);
     scene::LitMeshes all;
     for (const display::DisplayMeshes& object : meshes_) {
         all.insert(all.end(), object.meshes.begin(), object.meshes.end());
@@ -73,7 +83,8 @@ scene::LitMeshes DisplayUpdate::refresh() {
 }
 
 std::vector<Rgb> DisplayUpdate::valuesAt(const std::vector<Probe>& probes) {
-    refresh();
+    // What is refined for the eye carries the same light.
+    rebuild(base::kPi);
     std::vector<Rgb> values;
     values.reserve(probes.size());
     for (const Probe& p : probes) {

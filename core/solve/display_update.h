@@ -18,7 +18,11 @@ class DisplayUpdate {
     std::vector<Rgb> valuesAt(const std::vector<Probe>& probes);
 
   private:
+    /// Rebuilds what changed; curved surfaces with the given curvatureAngle (radians).
+    void rebuild(double curvatureAngle);
+
     Problem& problem_;
+    std::vector<std::uint8_t> isCurved_;          ///< by object
     std::vector<std::vector<NodeId>> patchesOf_;  ///< by object
     std::vector<std::unique_ptr<display::PatchTopology>> topologies_;
     std::vector<display::DisplayMeshes> meshes_;
