@@ -48,6 +48,7 @@ std::vector<OptionInfo> makeTable() {
          .get = [](const Options& o) { return o.threshold; },
          .set = [](Options& o, double value) { o.threshold = value; }});
     table.push_back({.name = "curvature-weight",
+                     .unit = "times",
                      .minimum = 0.0,
                      .maximum = 16.0,
                      .zero = "off",

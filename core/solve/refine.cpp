@@ -140,6 +140,15 @@ class Refinement {
   private:
     bool isSplittable(NodeId id) const { return hierarchy_.canSplit(id, minArea_); }
 
+    bool hasConstantKernel(const Link& link) const {
+        if (hierarchy_.kind(link.b) != NodeKind::element) {
+            return false;
+        }
+        const hierarchy::ElementName a = hierarchy_.name(link.a);
+        const hierarchy::ElementName b = hierarchy_.name(link.b);
+        return a.object == b.object && a.back == b.back && hierarchy_.surfaceOf(link.a).exactKernel(a.back);
+    }
+
     transport::LinkAssessment assessLink(const Link& link, float visibilityUpper, bool isMixed) const {
         const hierarchy::Light& a = hierarchy_.light(link.a);
         const hierarchy::Light& b = hierarchy_.light(link.b);
@@ -153,7 +162,9 @@ class Refinement {
         k.isMixed = isMixed;
         k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
         k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
-        const auto curvature = static_cast<float>(problem_.options.curvatureWeight);
+        // Where the kernel is one constant, distance makes up for what the cosines do.
+        const float curvature =
+            hasConstantKernel(link) ? 0.0f : static_cast<float>(problem_.options.curvatureWeight);
         k.curvatureA = curvature * curvatureOf(shapeA, shapeB.center - shapeA.center);
         k.curvatureB = isOneWay ? 0.0f : curvature * curvatureOf(shapeB, shapeA.center - shapeB.center);
         k.radiosityA = isOneWay ? 0.0f : base::channelMean(a.radiosity);
