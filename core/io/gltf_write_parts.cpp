@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/photometry.h"
 #include "core/io/image_write.h"
 
 namespace fluxwalk::io {
@@ -64,6 +65,27 @@ std::size_t TextureWriter::imageIndex(std::int32_t image) {
             glb_.append("images", {{"name", picture.name}, {"mimeType", "image/png"}, {"bufferView", view}});
     }
     return entry->second;
+}
+
+void addAlphaAndEmission(GlbBuilder& glb, TextureWriter& textures, const scene::Material& material,
+                         nlohmann::json& m) {
+    if (material.alphaMode == scene::AlphaMode::mask) {
+        m["alphaMode"] = "MASK";
+        m["alphaCutoff"] = material.alphaCutoff;
+    } else if (material.alphaMode == scene::AlphaMode::blend) {
+        m["alphaMode"] = "BLEND";
+    }
+    if (!material.isEmissive()) {
+        return;
+    }
+    const float most = std::max({material.emission.r, material.emission.g, material.emission.b});
+    useExtension(glb, "KHR_materials_emissive_strength");
+    m["emissiveFactor"] = toJson(material.emission / most);
+    m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
+        static_cast<double>(most) / base::kPi;
+    if (material.emissionTexture.isSet()) {
+        m["emissiveTexture"] = textures.info(material.emissionTexture);
+    }
 }
 
 }  // namespace fluxwalk::io

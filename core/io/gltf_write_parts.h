@@ -32,4 +32,8 @@ class TextureWriter {
     std::map<std::int32_t, std::size_t> imageIndex_;
 };
 
+/// Alpha mode and emission of a material, into its JSON.
+void addAlphaAndEmission(GlbBuilder& glb, TextureWriter& textures, const scene::Material& material,
+                         nlohmann::json& m);
+
 }  // namespace fluxwalk::io

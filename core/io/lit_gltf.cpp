@@ -7,7 +7,6 @@
 
 #include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/photometry.h"
 #include "core/io/file.h"
 #include "core/io/glb_write.h"
 #include "core/io/gltf_write_parts.h"
@@ -69,25 +68,10 @@ class LitWriter {
                     textureWriter_.info(material.reflectanceTexture);
             }
         }
-        if (material.alphaMode == scene::AlphaMode::mask) {
-            m["alphaMode"] = "MASK";
-            m["alphaCutoff"] = material.alphaCutoff;
-        } else if (material.alphaMode == scene::AlphaMode::blend) {
-            m["alphaMode"] = "BLEND";
-        }
         m["extras"] = {{"fluxwalk_reflectance", toJson(reflectance)},
                        {"fluxwalk_emission", toJson(material.emission)},
                        {"fluxwalk_double_sided", material.doubleSided}};
-        if (material.isEmissive()) {
-            const float most = std::max({material.emission.r, material.emission.g, material.emission.b});
-            useExtension(glb_, "KHR_materials_emissive_strength");
-            m["emissiveFactor"] = toJson(material.emission / most);
-            m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
-                static_cast<double>(most) / base::kPi;
-            if (material.emissionTexture.isSet()) {
-                m["emissiveTexture"] = textureWriter_.info(material.emissionTexture);
-            }
-        }
+        addAlphaAndEmission(glb_, textureWriter_, material, m);
         return m;
     }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/base/check.h"
-#include "core/base/photometry.h"
 #include "core/io/exact_extras.h"
 #include "core/io/gltf_write_parts.h"
 #include "core/surface/polygon_mesh.h"
@@ -165,22 +164,7 @@ class SceneWriter {
         if (material.bumpTexture.isSet()) {
             m["extras"]["fluxwalk_bump"] = textures_.info(material.bumpTexture)["index"];
         }
-        if (material.alphaMode == scene::AlphaMode::mask) {
-            m["alphaMode"] = "MASK";
-            m["alphaCutoff"] = material.alphaCutoff;
-        } else if (material.alphaMode == scene::AlphaMode::blend) {
-            m["alphaMode"] = "BLEND";
-        }
-        if (material.isEmissive()) {
-            const float most = std::max({material.emission.r, material.emission.g, material.emission.b});
-            useExtension(glb_, "KHR_materials_emissive_strength");
-            m["emissiveFactor"] = toJson(material.emission / most);
-            m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
-                static_cast<double>(most) / base::kPi;
-            if (material.emissionTexture.isSet()) {
-                m["emissiveTexture"] = textures_.info(material.emissionTexture);
-            }
-        }
+        addAlphaAndEmission(glb_, textures_, material, m);
         return m;
     }
 
