@@ -61,18 +61,17 @@ void addPoint(Mesh& mesh, const surface::Surface& surface, std::uint32_t patch, 
 Mesh standInOf(const surface::Surface& surface, const base::Mat4d& nodeFromWorld,
                const std::array<bool, 2>& texcoords) {
     Mesh mesh;
-    constexpr std::uint32_t n = kStandInEdges;
     for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
         const bool isTriangle = surface.domain(patch) == surface::PatchDomain::triangle;
         std::uint32_t row = mesh.size();
-        for (std::uint32_t j = 0; j <= n; ++j) {
-            const std::uint32_t last = isTriangle ? n - j : n;
+        for (std::uint32_t j = 0; j <= kStandInEdges; ++j) {
+            const std::uint32_t last = isTriangle ? kStandInEdges - j : kStandInEdges;
             for (std::uint32_t i = 0; i <= last; ++i) {
-                addPoint(mesh, surface, patch, Vec2d(i, j) / static_cast<double>(n), nodeFromWorld,
-                         texcoords);
+                addPoint(mesh, surface, patch, Vec2d(i, j) / static_cast<double>(kStandInEdges),
+                         nodeFromWorld, texcoords);
             }
             const std::uint32_t next = row + last + 1;
-            for (std::uint32_t i = 0; j < n && i < last; ++i) {
+            for (std::uint32_t i = 0; j < kStandInEdges && i < last; ++i) {
                 mesh.triangles.insert(mesh.triangles.end(), {row + i, row + i + 1, next + i});
                 if (!isTriangle || i + 1 < last) {
                     mesh.triangles.insert(mesh.triangles.end(), {row + i + 1, next + i + 1, next + i});
