@@ -23,7 +23,7 @@ struct Interval {
 
 }  // namespace
 
-SmoothUnion::SmoothUnion(std::vector<Ball> balls) {
+SmoothUnion::SmoothUnion(const std::vector<Ball>& balls) {
     FLUXWALK_CHECK(!balls.empty() && balls.size() <= kMaxBalls);
     for (const Ball& ball : balls) {
         FLUXWALK_CHECK(ball.radius > 0.0 && std::isfinite(ball.radius));

@@ -20,7 +20,7 @@ class SmoothUnion final : public Projectable {
     static constexpr std::size_t kMaxBalls = 32;
 
     /// One to kMaxBalls balls, radii above 0.
-    explicit SmoothUnion(std::vector<Ball> balls);
+    explicit SmoothUnion(const std::vector<Ball>& balls);
 
     /// f: negative inside.
     double value(const Vec3d& x) const;

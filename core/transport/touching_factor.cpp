@@ -63,7 +63,8 @@ double meanFactor(const ElementGrid& receiver, const ElementPoints& source, cons
 // The 4-point rule in each of side / 4 parts of the interval.
 template <std::size_t side>
 double nodeAt(std::size_t i) {
-    return (static_cast<double>(i / 4) + kNode[i % 4]) * (4.0 / static_cast<double>(side));
+    const std::size_t part = i / 4;
+    return (static_cast<double>(part) + kNode[i % 4]) * (4.0 / static_cast<double>(side));
 }
 
 template <std::size_t side>
