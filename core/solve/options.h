@@ -21,8 +21,7 @@ enum class PullRule : std::uint8_t {
     /// Means by true area: adjoint to push, power is conserved (ALGORITHMS 1.5, convention A).
     trueArea,
     /// Means by area projected on the parent's normal (Schaefer, section 1), normalised: constants are kept,
-    /// but
-    /// on curved surfaces power is not. For comparison; Audit::pullDefect says what it does.
+    /// but power on curved surfaces is not. For comparison; Audit::pullDefect says what it does.
     projected
 };
 
