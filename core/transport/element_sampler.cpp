@@ -67,4 +67,14 @@ SurfaceSample ElementSampler::inStratum(unsigned stratum, unsigned side, double 
     return at({(cell % 4 + jx) * 0.25, (row + jy) * 0.25});
 }
 
+SurfaceSample ElementSampler::inExposed(const base::Vec2d& st) const {
+    if (cellCount_ == 16) {
+        return at(st);
+    }
+    const double place = st.x * cellCount_;
+    const unsigned chosen = std::min(cellCount_ - 1, static_cast<unsigned>(place));
+    const unsigned cell = cells_[chosen];
+    return at({(cell % 4 + place - chosen) * 0.25, (cell / 4 + st.y) * 0.25});
+}
+
 }  // namespace fluxwalk::transport

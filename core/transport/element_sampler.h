@@ -32,6 +32,9 @@ class ElementSampler {
     /// Point of the exposed part in one of side x side strata, at (jx, jy) in [0, 1)^2 within it.
     SurfaceSample inStratum(unsigned stratum, unsigned side, double jx, double jy) const;
 
+    /// The exposed part's point at coordinates of a unit square over its cells.
+    SurfaceSample inExposed(const base::Vec2d& st) const;
+
   private:
     const hierarchy::Shape& shape_;
     const surface::Surface& surface_;

@@ -7,6 +7,7 @@
 #include "core/base/photometry.h"
 #include "core/base/random.h"
 #include "core/hierarchy/local_frame.h"
+#include "core/transport/contact_visibility.h"
 #include "core/transport/element_sampler.h"
 
 namespace fluxwalk::transport {
@@ -186,14 +187,24 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         }
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
-        if (glm::distance(shapeA.center, shapeB.center) < kNearPair * (shapeA.radius + shapeB.radius)) {
+        const float distance = glm::distance(shapeA.center, shapeB.center);
+        const float reach = shapeA.radius + shapeB.radius;
+        if (distance < kNearPair * reach) {
             for (unsigned round = 1; round < kNearRounds; ++round) {
                 stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
             }
         }
         sample = toSample(stage);
         sample.isMixed = true;
-        sample.rays = static_cast<std::uint16_t>(stage.count + (isEdge ? 0 : firstRays));
+        unsigned count = stage.count + (isEdge ? 0 : firstRays);
+        if (distance < reach && shapeA.isPlanar && shapeB.isPlanar) {
+            const ContactSample contact = sampleContact(hierarchy, rays, a, b, key);
+            count += contact.rays;
+            if (contact.seen > 0.0 && contact.seen < contact.sent) {
+                sample.mean = static_cast<float>(contact.seen / contact.sent);
+            }
+        }
+        sample.rays = static_cast<std::uint16_t>(count);
         sample.gradientA = stage.shadowGradient(0, hierarchy::localFrame(shapeA.cornerCount));
         sample.gradientB = stage.shadowGradient(1, hierarchy::localFrame(shapeB.cornerCount));
         if (isSwapped) {

@@ -24,26 +24,16 @@ double defectOf(Problem& problem) {
 
 }  // namespace
 
-// Rows of direct links only, as in check 7. Unscaled, the balance misses 1.7e-4 here, what the rows miss:
-// leaves of the floor and of the blocks' insides where they meet lose about 2e-4. Scaled it holds.
+// Rows of direct links only, as in check 7, unscaled.
 TEST(Balance, closedFurnace) {
-    solve::Options options;
-    options.minArea = .004;
-    const auto problem = test::makeProblem(scene::buildFurnace(.5f, false), options);
-    test::refine(*problem, 1e-9);
-    problem->rowScale = solve::computeRowScaling(*problem);
-    EXPECT_LE(defectOf(*problem), 1e-4);
-    problem->rowScale.clear();
-    const std::vector<double> sums = test::transportedRowSums(*problem);
-    double missing = 0.0;
-    double absorbed = 0.0;
-    for (const base::NodeId id : test::leavesOf(problem->hierarchy)) {
-        const double power = static_cast<double>(problem->hierarchy.shape(id).exposedArea()) *
-                             static_cast<double>(problem->hierarchy.light(id).radiosity.g);
-        missing += power * (1.0 - sums[base::index(id)]);
-        absorbed += 0.5 * power;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        solve::Options options;
+        options.minArea = .004;
+        options.seed = seed;
+        const auto problem = test::makeProblem(scene::buildFurnace(.5f, false), options);
+        test::refine(*problem, 1e-9);
+        EXPECT_LE(defectOf(*problem), 1e-4) << seed;
     }
-    EXPECT_NEAR(defectOf(*problem), std::abs(missing) / absorbed, 2e-5);
 }
 
 TEST(Balance, emptyCube) {

@@ -94,7 +94,7 @@ TEST(Refinement, sweepsInBetweenCostNothing) {
         test::refine(*exact, threshold);
         test::converge(*exact, 1e-4);
     }
-    const std::vector<solve::Probe> probes = solve::drawProbes(*exact, 150, 5);
+    const std::vector<solve::Probe> probes = solve::drawProbes(*exact, 300, 5);
     const std::vector<Rgb> reference = solve::gatherProbes(*exact, probes);
     const auto errorOf = [&](Problem& problem) {
         test::converge(problem, 1e-5);
