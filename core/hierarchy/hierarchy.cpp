@@ -190,7 +190,6 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
         if (from.kind == NodeKind::element) {
             object_[i] = shaftItems_[from.item].object;
             patchSide_[i] = shaftItems_[from.item].patch * 2 + (from.back ? 1 : 0);
-            patches_.push_back(id);
             patchNodes_[from.item][from.back ? 1 : 0] = id;
         } else if (from.kind == NodeKind::cluster) {
             object_[i] = i;  // the name of a cluster is its place in the tree, which the scene fixes
@@ -202,9 +201,11 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
         }
     }
     root_ = plan.nodes.empty() ? NodeId::none : NodeId{0};
+    orderPatches();
     leafCount_ = patches_.size();
     shapePatches(executor);
     shapeClusters();
+    sumAreas();
 }
 
 void Hierarchy::collectItems(const base::Executor& executor) {
@@ -311,7 +312,87 @@ void Hierarchy::refreshExposure(NodeId id) {
     }
 }
 
+void Hierarchy::orderPatches() {
+    patchRange_.resize(nodeCount());
+    std::vector<NodeId> stack;
+    if (root_ != NodeId::none) {
+        stack.push_back(root_);
+    }
+    while (!stack.empty()) {
+        const NodeId id = stack.back();
+        stack.pop_back();
+        patchRange_[index(id)][0] = static_cast<std::uint32_t>(patches_.size());
+        if (kind(id) == NodeKind::cluster) {
+            stack.push_back(child(id, 1));
+            stack.push_back(child(id, 0));
+        } else if (kind(id) == NodeKind::element) {
+            patches_.push_back(id);
+        }
+    }
+    // Children follow their parents, and the second child's patches those of the first.
+    for (std::size_t i = nodeCount(); i-- > 0;) {
+        const NodeId id{static_cast<std::uint32_t>(i)};
+        auto& [begin, end] = patchRange_[i];
+        end = kind(id) == NodeKind::cluster   ? patchRange_[index(child(id, 1))][1]
+              : kind(id) == NodeKind::element ? begin + 1
+                                              : begin;
+    }
+}
+
+void Hierarchy::sumAreas() {
+    areaBefore_.assign(patches_.size() + 1, 0.0);
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+        areaBefore_[i + 1] = areaBefore_[i] + static_cast<double>(shape(patches_[i]).exposedArea());
+    }
+    for (std::size_t i = patchRange_.size(); i-- > 0;) {
+        if (kind_[i] == NodeKind::cluster) {
+            const auto [begin, end] = patchRange_[i];
+            const double exposed = areaBefore_[end] - areaBefore_[begin];
+            Shape& shape = shape_[i];
+            shape.exposed =
+                shape.area > 0.0f ? static_cast<float>(exposed / static_cast<double>(shape.area)) : 0.0f;
+        }
+    }
+}
+
+void Hierarchy::pullClusters() {
+    for (std::size_t i = patchRange_.size(); i-- > 0;) {
+        if (kind_[i] != NodeKind::cluster) {
+            continue;
+        }
+        Light& light = light_[i];
+        light = {};
+        float weight = 0.0f;
+        for (unsigned c = 0; c < 2; ++c) {
+            const std::size_t k = index(firstChild_[i]) + c;
+            const float area = shape_[k].exposedArea();
+            light.radiosity += area * light_[k].radiosity;
+            light.irradiance += area * light_[k].irradiance;
+            weight += area;
+        }
+        if (weight <= 0.0f) {
+            light = {};
+            continue;
+        }
+        light.radiosity /= weight;
+        light.irradiance /= weight;
+        for (unsigned c = 0; c < 2; ++c) {
+            const std::size_t k = index(firstChild_[i]) + c;
+            if (shape_[k].exposedArea() > 0.0f) {
+                const float off = std::abs(base::channelMean(light_[k].radiosity - light.radiosity));
+                light.residual = std::max(light.residual, off + light_[k].range());
+            }
+        }
+    }
+}
+
 void Hierarchy::shapeClusters() {
+    extent_.resize(patchRange_.size());
+    for (const NodeId id : patches_) {
+        const ElementName at = name(id);
+        const base::Box& box = shaftBoxes_[firstShaftItem_[at.object] + at.patch];
+        extent_[index(id)] = {Vec3(box.lower), Vec3(box.upper)};
+    }
     // Children follow their parents, so one pass from the back sees children first.
     for (std::size_t i = nodeCount(); i-- > 0;) {
         if (kind_[i] != NodeKind::cluster) {
@@ -320,6 +401,12 @@ void Hierarchy::shapeClusters() {
         const Shape& a = shape_[index(firstChild_[i])];
         const Shape& b = shape_[index(firstChild_[i]) + 1];
         Shape& shape = shape_[i];
+        const Extent& boxA = extent_[index(firstChild_[i])];
+        const Extent& boxB = extent_[index(firstChild_[i]) + 1];
+        extent_[i] = a.area == 0.0f ? boxB
+                     : b.area == 0.0f
+                         ? boxA
+                         : Extent{glm::min(boxA.lower, boxB.lower), glm::max(boxA.upper, boxB.upper)};
         shape.area = a.area + b.area;
         if (a.area == 0.0f || b.area == 0.0f) {
             shape = a.area == 0.0f ? b : a;
@@ -343,6 +430,11 @@ void Hierarchy::shapeClusters() {
         } else {
             shape.radius = 0.5f * (distance + a.radius + b.radius);
             shape.center = a.center + between * ((shape.radius - a.radius) / distance);
+        }
+        const float across = 0.5f * glm::length(extent_[i].upper - extent_[i].lower);
+        if (across < shape.radius) {
+            shape.center = 0.5f * (extent_[i].lower + extent_[i].upper);
+            shape.radius = across;
         }
         shape.isPlanar = false;
     }
@@ -424,10 +516,15 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
             }
         }
     });
+    bool isHiding = false;
     for (const NodeId parent : leaves) {
         if (mayHide_[index(parent)] != 0) {
             refreshExposure(parent);
+            isHiding = true;
         }
+    }
+    if (isHiding) {
+        sumAreas();
     }
 }
 

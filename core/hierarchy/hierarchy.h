@@ -51,8 +51,15 @@ struct Shape {
     float exposedArea() const { return area * exposed; }
 };
 
-/// Light of a node. Elements: means over the exposed area. Light sources: `radiosity` is intensity (cd),
-/// illuminance of a directional light (lux) or the sky's illuminance on a free horizontal plane (lux).
+/// Axis-parallel box.
+struct Extent {
+    Vec3 lower{};
+    Vec3 upper{};
+};
+
+/// Light of a node. Elements and clusters: means over the exposed area. Light sources: `radiosity` is
+/// intensity (cd), illuminance of a directional light (lux) or the sky's illuminance on a free horizontal
+/// plane (lux).
 struct Light {
     Rgb radiosity{0.0f};   ///< lm/m2
     Rgb irradiance{0.0f};  ///< mean over the exposed area, lux
@@ -61,7 +68,8 @@ struct Light {
     /// Radiosity over an element: mean + slopeS local.x + slopeT local.y (local_frame.h).
     Rgb slopeS{0.0f};
     Rgb slopeT{0.0f};
-    float residual = 0.0f;  ///< largest deviation of the channel mean from that, lm/m2
+    /// Largest deviation of the channel mean from that, lm/m2; clusters, whose slopes are 0: from the mean.
+    float residual = 0.0f;
 
     /// Half the range of the channel-mean radiosity, at most, lm/m2.
     float range() const;
@@ -98,9 +106,20 @@ class Hierarchy {
     const Light& light(NodeId id) const { return light_[index(id)]; }
     Light& light(NodeId id) { return light_[index(id)]; }
 
-    /// Nodes at the top of the elements (one for each patch and reached side), in breadth-first order of the
+    /// Nodes at the top of the elements (one for each patch and reached side), in depth-first order of the
     /// clusters.
     std::span<const NodeId> patches() const { return patches_; }
+    /// Those below a cluster, or the patch itself: neighbours in patches().
+    std::span<const NodeId> patchesBelow(NodeId id) const {
+        const auto [begin, end] = patchRange_[index(id)];
+        return {patches_.data() + begin, end - begin};
+    }
+    /// Index into patches() of the first of them.
+    std::uint32_t firstPatchBelow(NodeId id) const { return patchRange_[index(id)][0]; }
+    /// Exposed area in m2 of the first `count` patches.
+    double exposedAreaBefore(std::size_t count) const { return areaBefore_[count]; }
+    /// Box about a cluster or patch.
+    const Extent& extent(NodeId id) const { return extent_[index(id)]; }
     /// Light sources without area, and the sky.
     std::span<const NodeId> sources() const { return sources_; }
     /// Patch node of a patch and side, or NodeId::none where light does not reach it.
@@ -111,6 +130,8 @@ class Hierarchy {
     /// Quarters leaves. Children take over their parent's irradiance. Ids must be distinct leaves; the order
     /// fixes the new ids.
     void split(std::span<const NodeId> leaves, const base::Executor& executor);
+    /// Means and deviations of the clusters' light, from their patches.
+    void pullClusters();
 
     const ReachedSides& reached() const { return reached_; }
     const scene::Scene& scene() const { return *scene_; }
@@ -132,6 +153,8 @@ class Hierarchy {
     void refreshExposure(NodeId id);
     void shapePatches(const base::Executor& executor);
     void shapeClusters();
+    void orderPatches();
+    void sumAreas();
 
     const scene::Scene* scene_;
     const rays::RayScene* rays_;
@@ -155,6 +178,9 @@ class Hierarchy {
         mayHide_;  ///< other geometry touches this element: its exposure must be sampled
 
     std::vector<NodeId> patches_;
+    std::vector<std::array<std::uint32_t, 2>> patchRange_;  ///< of clusters and patches, in patches_
+    std::vector<double> areaBefore_;
+    std::vector<Extent> extent_;  ///< of clusters and patches
     std::vector<NodeId> sources_;
     std::vector<std::array<NodeId, 2>> patchNodes_;  ///< by shaft item: front, back
     NodeId root_ = NodeId::none;

@@ -51,7 +51,8 @@ struct GradientCode {
 /// Transport between an unordered pair of nodes: one symmetric coefficient serves both directions, so
 /// reciprocity is exact. H_a += coupling * visibility * B_b / A_a and the other way round, A being exposed
 /// areas. Where `b` is a light source without area, coupling is A_a times the mean over `a` of cos / r2 (or
-/// cos, or the view of the sky) and there is no way back.
+/// cos, or the view of the sky) and there is no way back. Clusters share what they send and receive among
+/// their patches (transport/cluster_factor.h); their gradients are 0.
 struct Link {
     NodeId a{};
     NodeId b{};
@@ -79,6 +80,8 @@ static_assert(sizeof(Link) == 20);
 class LinkStore {
   public:
     std::vector<Link> links;
+    /// Of these, the first ones have a cluster at one end or at both.
+    std::size_t clusterLinks = 0;
 
     /// Rebuilds the lists of ends after `links` changed.
     void index(std::size_t nodeCount);

@@ -6,6 +6,7 @@
 #include "core/base/photometry.h"
 #include "core/base/random.h"
 #include "core/hierarchy/local_frame.h"
+#include "core/solve/cluster_exchange.h"
 
 namespace fluxwalk::solve {
 
@@ -119,6 +120,14 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
     // What arrives where everything has radiosity 1, and its slopes: ends of links are linear (Sweeper).
     std::vector<float> sums(h.nodeCount(), 0.0f);
     std::vector<Vec2> slopes(h.nodeCount(), Vec2(0.0f));
+    ClusterExchange clusters(problem, scale, true);
+    if (!clusters.isEmpty()) {
+        std::vector<Rgb> arriving(h.patches().size());
+        clusters.gather(0, arriving.size(), arriving);
+        for (std::size_t i = 0; i < arriving.size(); ++i) {
+            sums[base::index(h.patches()[i])] = arriving[i].g;
+        }
+    }
     // Parents stand before their children.
     for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
         const NodeId id{i};
@@ -131,9 +140,12 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
             const hierarchy::Link& link = problem.links.links[l];
             const bool isA = link.a == id;
             const NodeId source = isA ? link.b : link.a;
-            if (h.kind(source) == NodeKind::element) {
-                const float factor = scale.empty() ? 1.0f : scale[i] * scale[base::index(source)];
-                const float transfer = factor * link.transfer();
+            const bool isCluster = h.kind(source) == NodeKind::cluster;
+            if (isCluster || h.kind(source) == NodeKind::element) {
+                const float shown = isCluster       ? clusters.shownBy(l, source).g
+                                    : scale.empty() ? 1.0f
+                                                    : scale[base::index(source)];
+                const float transfer = (scale.empty() ? 1.0f : scale[i]) * shown * link.transfer();
                 sum += static_cast<double>(transfer);
                 slope += transfer * (isA ? link.gradientA : link.gradientB).decode();
             }

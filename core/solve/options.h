@@ -30,6 +30,8 @@ struct Options {
     double error = 0.02;
     ErrorOf errorOf = ErrorOf::displayed;
     OracleKind oracle = OracleKind::bounded;
+    /// Links may end at clusters. Off, every pair of patches that see each other has links of its own.
+    bool clusterLinks = true;
     /// Largest error of a link in lux (bf: of the receiver; bfa and bounded: spread over the whole scene's
     /// area). 0 chooses it by a closed loop that ends at `error`.
     double threshold = 0.0;

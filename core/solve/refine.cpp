@@ -62,7 +62,8 @@ bool facesAway(const Shape& from, const Shape& to) {
 // The spread that a curved end's cone of normals implies for light from `direction`.
 float curvatureOf(const Shape& shape, const base::Vec3& direction) {
     const float distance = glm::length(direction);
-    if (shape.isPlanar || distance <= 0.0f) {
+    const bool isCluster = shape.cornerCount == 0;
+    if (shape.isPlanar || isCluster || distance <= 0.0f) {
         return 0.0f;
     }
     const double angle = base::NormalCone::angleBetween(Vec3d(shape.axis), Vec3d(direction / distance));
@@ -141,7 +142,7 @@ class Refinement {
     bool isSplittable(NodeId id) const { return hierarchy_.canSplit(id, minArea_); }
 
     bool hasConstantKernel(const Link& link) const {
-        if (hierarchy_.kind(link.b) != NodeKind::element) {
+        if (hierarchy_.kind(link.a) != NodeKind::element || hierarchy_.kind(link.b) != NodeKind::element) {
             return false;
         }
         const hierarchy::ElementName a = hierarchy_.name(link.a);
@@ -149,12 +150,16 @@ class Refinement {
         return a.object == b.object && a.back == b.back && hierarchy_.surfaceOf(link.a).exactKernel(a.back);
     }
 
+    bool isSource(NodeId id) const {
+        return hierarchy_.kind(id) == NodeKind::light || hierarchy_.kind(id) == NodeKind::sky;
+    }
+
     transport::LinkAssessment assessLink(const Link& link, float visibilityUpper, bool isMixed) const {
         const hierarchy::Light& a = hierarchy_.light(link.a);
         const hierarchy::Light& b = hierarchy_.light(link.b);
         const Shape& shapeA = hierarchy_.shape(link.a);
         const Shape& shapeB = hierarchy_.shape(link.b);
-        const bool isOneWay = hierarchy_.kind(link.b) != NodeKind::element;
+        const bool isOneWay = isSource(link.b);
         transport::LinkBounds k;
         k.coupling = link.coupling;
         k.visibility = link.visibility();
@@ -179,6 +184,7 @@ class Refinement {
         k.radiusB = isOneWay ? 0.0f : shapeB.radius;
         k.distance = glm::distance(shapeA.center, shapeB.center);
         k.sceneArea = sceneArea_;
+        k.isCluster = shapeA.cornerCount == 0 || (!isOneWay && shapeB.cornerCount == 0);
         return transport::assess(problem_.options.oracle, k);
     }
 
@@ -219,8 +225,7 @@ class Refinement {
         const NodeKind kindB = hierarchy_.kind(link.b);
         // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
         const bool isMixed = isPartlyBlocked(link) && kindB != NodeKind::sky;
-        const unsigned rays =
-            isMixed || kindB != NodeKind::element ? transport::kSecondRays : transport::kFirstRays;
+        const unsigned rays = isMixed || isSource(link.b) ? transport::kSecondRays : transport::kFirstRays;
         const float upper = link.isOpen() ? 1.0f : transport::visibilityUpperBound(v, rays);
         const transport::LinkAssessment assessment = assessLink(link, upper, isMixed);
         return assessment.error <= threshold_ ? Verdict::accept : chooseSplit(link, assessment.splitA);
@@ -236,7 +241,7 @@ class Refinement {
             return decideSelf(pair, counters);
         }
         if (kindA == NodeKind::cluster || kindB == NodeKind::cluster) {
-            return decideClusters(pair);
+            return decideClusters(pair, counters);
         }
         if (kindA != NodeKind::element) {
             return d;  // two light sources without area
@@ -291,7 +296,29 @@ class Refinement {
         return d;
     }
 
-    Decision decideClusters(const Query& pair) const {
+    // Whether points stand for a cluster in its exchange with another node: clusters must be apart by their
+    // spheres, an element, whose factor is exact, by its box.
+    bool areApart(NodeId a, NodeId b) const {
+        const Shape& shapeA = hierarchy_.shape(a);
+        const Shape& shapeB = hierarchy_.shape(b);
+        if (shapeA.cornerCount == 0 && shapeB.cornerCount == 0) {
+            return glm::distance(shapeA.center, shapeB.center) > shapeA.radius + shapeB.radius;
+        }
+        const Shape& cluster = shapeA.cornerCount == 0 ? shapeA : shapeB;
+        const Shape& element = shapeA.cornerCount == 0 ? shapeB : shapeA;
+        hierarchy::Extent box{element.center - element.radius, element.center + element.radius};
+        if (element.isPlanar) {
+            box = {element.corners[0], element.corners[0]};
+            for (std::uint32_t i = 1; i < element.cornerCount; ++i) {
+                box.lower = glm::min(box.lower, element.corners[i]);
+                box.upper = glm::max(box.upper, element.corners[i]);
+            }
+        }
+        const base::Vec3 nearest = glm::clamp(cluster.center, box.lower, box.upper);
+        return glm::distance(nearest, cluster.center) > cluster.radius;
+    }
+
+    Decision decideClusters(const Query& pair, Counters& counters) const {
         Decision d;
         d.link.a = pair.a;
         d.link.b = pair.b;
@@ -299,14 +326,32 @@ class Refinement {
         const bool clusterB = hierarchy_.kind(pair.b) == NodeKind::cluster;
         const Shape& a = hierarchy_.shape(pair.a);
         const Shape& b = hierarchy_.shape(pair.b);
-        if (a.area > 0.0f && b.area > 0.0f && (facesAway(a, b) || facesAway(b, a))) {
+        if (a.area > 0.0f && b.area > 0.0f &&
+            (facesAway(a, b) || facesAway(b, a) || isBehind(a, b, tolerance_) ||
+             isBehind(b, a, tolerance_))) {
             return d;
         }
-        if (clusterA && clusterB) {
-            d.verdict = a.radius >= b.radius ? Verdict::splitA : Verdict::splitB;
-        } else {
-            d.verdict = clusterA ? Verdict::splitA : Verdict::splitB;
+        // Light sources without area stay with single patches.
+        const bool areSurfaces = a.area > 0.0f && b.area > 0.0f;
+        if (!problem_.options.clusterLinks || !areSurfaces || !areApart(pair.a, pair.b)) {
+            if (clusterA && clusterB) {
+                d.verdict = a.radius >= b.radius ? Verdict::splitA : Verdict::splitB;
+            } else {
+                d.verdict = clusterA ? Verdict::splitA : Verdict::splitB;
+            }
+            return d;
         }
+        if (a.exposedArea() <= 0.0f || b.exposedArea() <= 0.0f) {
+            return d;
+        }
+        Coefficient c;
+        service_.compute(std::span(&pair, 1), std::span(&c, 1));
+        count(c, counters);
+        if (c.isBlocked) {
+            return d;
+        }
+        setCoefficient(d.link, c);
+        d.verdict = c.coupling > 0.0f ? judge(d.link) : chooseSplit(d.link, a.radius >= b.radius);
         return d;
     }
 
@@ -373,8 +418,8 @@ class Refinement {
     // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it
     // was reached.
     Query ordered(NodeId a, NodeId b, bool open, bool edge) const {
-        const bool sourceA = hierarchy_.kind(a) == NodeKind::light || hierarchy_.kind(a) == NodeKind::sky;
-        const bool sourceB = hierarchy_.kind(b) == NodeKind::light || hierarchy_.kind(b) == NodeKind::sky;
+        const bool sourceA = isSource(a);
+        const bool sourceB = isSource(b);
         if (sourceA != sourceB) {
             return sourceA ? Query{b, a, open, edge} : Query{a, b, open, edge};
         }
@@ -404,6 +449,12 @@ bool refineLinks(Problem& problem, double threshold, const std::function<bool()>
         }
         pairs = refinement.runWave(pairs);
     }
+    const Hierarchy& h = problem.hierarchy;
+    std::vector<Link>& links = problem.links.links;
+    const auto withClusters = std::stable_partition(links.begin(), links.end(), [&h](const Link& link) {
+        return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
+    });
+    problem.links.clusterLinks = static_cast<std::size_t>(withClusters - links.begin());
     problem.links.index(problem.hierarchy.nodeCount());
     Counters& counters = problem.statistics.counters;
     counters.nodes = problem.hierarchy.nodeCount();

@@ -72,6 +72,7 @@ void seedRadiosity(Problem& problem, float ambient) {
         light.radiosity = light.emission + light.reflectance * ambient;
         light.residual = 0.5f * base::channelMean(light.reflectance) * ambient;
     }
+    h.pullClusters();
 }
 
 double meanIrradiance(const hierarchy::Hierarchy& h) {
@@ -82,17 +83,16 @@ double meanIrradiance(const hierarchy::Hierarchy& h) {
     return h.totalArea() > 0.0 ? sum / h.totalArea() : 0.0;
 }
 
-/// Links between all pairs of patches are the start of everything here: beyond this many patches they would
-/// fill the memory.
-constexpr std::size_t kMaxPatches = 8000;
+/// Without cluster links all pairs of patches would be linked: beyond this many they would fill the memory.
+constexpr std::size_t kMaxPairedPatches = 8000;
 
 void checkSize(const Problem& problem) {
     const std::size_t patches = problem.hierarchy.patches().size();
-    if (patches > kMaxPatches) {
-        throw base::UsageError(
-            "the scene has " + std::to_string(patches) +
-            " patches that light reaches; this version links all pairs of them and takes at most " +
-            std::to_string(kMaxPatches));
+    if (!problem.options.clusterLinks && patches > kMaxPairedPatches) {
+        throw base::UsageError("the scene has " + std::to_string(patches) +
+                               " patches that light reaches; without cluster links all pairs of them are "
+                               "linked, and at most " +
+                               std::to_string(kMaxPairedPatches) + " are taken");
     }
 }
 

@@ -15,14 +15,17 @@ namespace {
 /// than an eighth of all, so that it stays Gauss-Seidel.
 constexpr std::size_t kMinEnds = 2048;
 constexpr std::size_t kMinBlocks = 8;
+/// More blocks than this would only look at the same large clusters again.
+constexpr std::size_t kMaxBlocks = 64;
 
 }  // namespace
 
-Sweeper::Sweeper(Problem& problem) : problem_(problem) {
+Sweeper::Sweeper(Problem& problem) : problem_(problem), clusters_(problem, problem.rowScale) {
     const hierarchy::Hierarchy& h = problem.hierarchy;
     order_.reserve(h.nodeCount());
     std::vector<NodeId> stack;
-    const std::size_t most = std::min(kMinEnds, 2 * problem.links.links.size() / kMinBlocks);
+    const std::size_t all = 2 * problem.links.links.size();
+    const std::size_t most = std::min(std::max(kMinEnds, all / kMaxBlocks), all / kMinBlocks);
     Block block;
     std::size_t ends = 0;
     for (const NodeId patch : h.patches()) {
@@ -38,10 +41,12 @@ Sweeper::Sweeper(Problem& problem) : problem_(problem) {
                 }
             }
         }
+        ++block.endPatch;
         if (ends >= most) {
             block.end = order_.size();
             blocks_.push_back(block);
             block.begin = block.end;
+            block.beginPatch = block.endPatch;
             ends = 0;
         }
     }
@@ -60,6 +65,7 @@ double Sweeper::sweep() {
         gather(block);
         pushPull(block, change, power);
     }
+    problem_.hierarchy.pullClusters();
     ++problem_.statistics.counters.sweeps;
     return power > 0.0 ? change / power : 0.0;
 }
@@ -68,6 +74,10 @@ void Sweeper::gather(const Block& block) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     const std::vector<hierarchy::Link>& links = problem_.links.links;
     const bool isScaled = problem_.rowScale.size() == h.nodeCount();
+    if (!clusters_.isEmpty()) {
+        fromClusters_.resize(block.endPatch - block.beginPatch);
+        clusters_.gather(block.beginPatch, block.endPatch, fromClusters_);
+    }
     problem_.executor.forRange(block.end - block.begin, 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const NodeId id = order_[block.begin + i];
@@ -79,6 +89,14 @@ void Sweeper::gather(const Block& block) {
                 const bool isA = link.a == id;
                 const NodeId source = isA ? link.b : link.a;
                 float transfer = link.transfer();
+                if (h.kind(source) == hierarchy::NodeKind::cluster) {
+                    const base::Vec2 here = (isA ? link.gradientA : link.gradientB).decode();
+                    const Rgb power = clusters_.shownBy(l, source) * transfer;
+                    sum += Vec3d(power);
+                    slopeS += power * here.x;
+                    slopeT += power * here.y;
+                    continue;
+                }
                 if (isScaled) {
                     transfer *= problem_.rowScale[base::index(source)];
                 }
@@ -104,6 +122,11 @@ void Sweeper::gather(const Block& block) {
             out.t = slopeT * static_cast<float>(perArea);
         }
     });
+    if (!clusters_.isEmpty()) {
+        for (std::size_t i = block.beginPatch; i < block.endPatch; ++i) {
+            gathered_[base::index(h.patches()[i])].mean += fromClusters_[i - block.beginPatch];
+        }
+    }
 }
 
 // What child `child` takes over: the parent's linear function on its quarter. Offsets are taken from the

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/solve/state.h"
+#include "core/solve/cluster_exchange.h"
 
 namespace fluxwalk::solve {
 
@@ -22,6 +22,8 @@ class Sweeper {
     struct Block {
         std::size_t begin = 0;  ///< range of order_
         std::size_t end = 0;
+        std::size_t beginPatch = 0;  ///< range of Hierarchy::patches()
+        std::size_t endPatch = 0;
     };
 
     void gather(const Block& block);
@@ -39,6 +41,8 @@ class Sweeper {
     LinearIrradiance inheritedBy(NodeId parent, unsigned child, const LinearIrradiance& from) const;
 
     Problem& problem_;
+    ClusterExchange clusters_;
+    std::vector<Rgb> fromClusters_;  ///< by patch of the block at hand
     std::vector<LinearIrradiance>
         gathered_;               ///< by node: through its own links, then with that of all ancestors
     std::vector<NodeId> order_;  ///< nodes of the elements' trees, parents before children

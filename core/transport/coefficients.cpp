@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/transport/cluster_factor.h"
 #include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
 #include "core/transport/shaft.h"
@@ -109,9 +110,39 @@ float visibilityUpperBound(float visibility, unsigned rays) {
 
 void CoefficientService::compute(std::span<const Query> queries, std::span<Coefficient> out) const {
     for (std::size_t i = 0; i < queries.size(); ++i) {
-        const bool isElement = hierarchy_.kind(queries[i].b) == hierarchy::NodeKind::element;
-        out[i] = isElement ? betweenElements(queries[i]) : fromSource(queries[i]);
+        const hierarchy::NodeKind kindA = hierarchy_.kind(queries[i].a);
+        const hierarchy::NodeKind kindB = hierarchy_.kind(queries[i].b);
+        out[i] = kindA == hierarchy::NodeKind::cluster || kindB == hierarchy::NodeKind::cluster
+                     ? withClusters(queries[i])
+                 : kindB == hierarchy::NodeKind::element ? betweenElements(queries[i])
+                                                         : fromSource(queries[i]);
     }
+}
+
+Coefficient CoefficientService::withClusters(const Query& query) const {
+    Coefficient out;
+    if (isCutOff(hierarchy_, rays_, query.a, query.b, 0.5 * rays_.lift())) {
+        out.isBlocked = true;
+        out.visibility = 0.0f;
+        return out;
+    }
+    const PairFactor factor = computeClusterFactor(hierarchy_, query.a, query.b);
+    out.coupling = static_cast<float>(factor.coupling);
+    out.gradientA = base::Vec2(factor.gradientA);
+    out.gradientB = base::Vec2(factor.gradientB);
+    out.spreadA = static_cast<float>(factor.spreadA);
+    out.spreadB = static_cast<float>(factor.spreadB);
+    out.evaluations = static_cast<std::uint16_t>(std::min(factor.evaluations, 0xffffU));
+    if (out.coupling <= 0.0f) {
+        return out;
+    }
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, query.isEdge);
+    out.visibility = seen.mean;
+    out.gradientA += base::Vec2(seen.gradientA);
+    out.gradientB += base::Vec2(seen.gradientB);
+    out.rays = seen.rays;
+    out.isMixed = seen.isMixed;
+    return out;
 }
 
 Coefficient CoefficientService::betweenElements(const Query& query) const {

@@ -20,7 +20,7 @@ struct Query {
     bool isEdge = false;
 };
 
-/// What a pair exchanges. `b` may be a light source.
+/// What a pair exchanges. `b` may be a light source, where `a` is an element; either may be a cluster.
 struct Coefficient {
     float coupling = 0.0f;  ///< unoccluded, m2, between the exposed parts
     float visibility = 1.0f;
@@ -47,6 +47,7 @@ class CoefficientService {
 
   private:
     Coefficient betweenElements(const Query& query) const;
+    Coefficient withClusters(const Query& query) const;
     Coefficient fromSource(const Query& query) const;
 
     const hierarchy::Hierarchy& hierarchy_;

@@ -32,6 +32,11 @@ class ElementSampler {
     /// Point of the exposed part in one of side x side strata, at (jx, jy) in [0, 1)^2 within it.
     SurfaceSample inStratum(unsigned stratum, unsigned side, double jx, double jy) const;
 
+    /// Mean of SurfaceSample::measure over the unit square.
+    double meanMeasure() const {
+        return shape_.isPlanar ? 1.0 + 0.5 * (alongS_ + alongT_) : static_cast<double>(shape_.area);
+    }
+
     /// The exposed part's point at coordinates of a unit square over its cells.
     SurfaceSample inExposed(const base::Vec2d& st) const;
 

@@ -218,6 +218,25 @@ BothWays viewBothBaseline(const ElementPoints& a, const ElementPoints& b) {
     return viewBoth(a, b);
 }
 
+FLUXWALK_INLINE Lanes pointFactors(const Lanes3& x, const Lanes3& normal, const ElementPoints& source) {
+    std::uint32_t evaluations = 0;
+    return nearFactor(x, normal, source, 1e-6 * source.radius, evaluations);
+}
+
+[[gnu::target("avx2")]] Lanes pointFactorsAvx2(const Lanes3& x, const Lanes3& normal,
+                                               const ElementPoints& source) {
+    return pointFactors(x, normal, source);
+}
+
+Lanes pointFactorsBaseline(const Lanes3& x, const Lanes3& normal, const ElementPoints& source) {
+    return pointFactors(x, normal, source);
+}
+
+bool hasAvx2() {
+    static const bool kHas = __builtin_cpu_supports("avx2") != 0;
+    return kHas;
+}
+
 std::array<double, kLanes> toArray(Lanes v) {
     std::array<double, kLanes> out{};
     for (int i = 0; i < kLanes; ++i) {
@@ -322,8 +341,11 @@ PairFactor computePairFactorAvx2(const ElementPoints& a, const ElementPoints& b)
 
 PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b,
                              const std::optional<double>& coupling) {
-    static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
-    return combine(a, b, hasAvx2 ? viewBothAvx2(a, b) : viewBothBaseline(a, b), coupling);
+    return combine(a, b, hasAvx2() ? viewBothAvx2(a, b) : viewBothBaseline(a, b), coupling);
+}
+
+Lanes computePointFactors(const Lanes3& x, const Lanes3& normal, const ElementPoints& source) {
+    return hasAvx2() ? pointFactorsAvx2(x, normal, source) : pointFactorsBaseline(x, normal, source);
 }
 
 double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source) {

@@ -56,5 +56,7 @@ PairFactor computePairFactor(const ElementPoints& a, const ElementPoints& b,
 /// Form factor from a point to an element: the irradiance at x per unit of the element's radiosity,
 /// unoccluded.
 double computePointFactor(const Vec3d& x, const Vec3d& normal, const ElementPoints& source);
+/// The same for eight points.
+Lanes computePointFactors(const base::Lanes3& x, const base::Lanes3& normal, const ElementPoints& source);
 
 }  // namespace fluxwalk::transport

@@ -21,7 +21,12 @@ LinkAssessment assessBounded(const LinkBounds& k) {
     const float kernelA = g * k.radiosityB * (k.spreadA + k.curvatureA) * k.visibilityUpper;
     const float kernelB = g * k.radiosityA * (k.spreadB + k.curvatureB) * k.visibilityUpper;
     const float v = k.visibility;
-    const float partial = k.isMixed ? std::sqrt(std::max(0.0f, v * (1.0f - v))) : 0.0f;
+    // Few rays meet what is bright or seen in a cluster of many surfaces: where all were blocked, as much as
+    // they allow may still arrive.
+    const bool mayHide = k.isCluster && v <= 0.0f;
+    const float partial = k.isMixed ? std::sqrt(std::max(0.0f, v * (1.0f - v)))
+                          : mayHide ? k.visibilityUpper
+                                    : 0.0f;
     const float gap = std::max(k.distance, 1e-20f);
     const float sourceA = g * std::max(k.residualA * v * std::min(1.0f, k.radiusA / gap), k.rangeA * partial);
     const float sourceB = g * std::max(k.residualB * v * std::min(1.0f, k.radiusB / gap), k.rangeB * partial);
@@ -35,7 +40,9 @@ LinkAssessment assessBounded(const LinkBounds& k) {
     const float gainA = std::max(kernelA, sourceA) + (largerA ? shadow : 0.0f);
     const float gainB = std::max(kernelB, sourceB) + (largerA ? 0.0f : shadow);
     bool splitA = gainA == gainB ? largerA : gainA > gainB;
-    if (k.radiusA > kMaxSizeRatio * k.radiusB) {
+    if (k.isCluster) {
+        // The larger sphere says little of the finer surfaces in it.
+    } else if (k.radiusA > kMaxSizeRatio * k.radiusB) {
         splitA = true;
     } else if (k.radiusB > kMaxSizeRatio * k.radiusA) {
         splitA = false;

@@ -34,6 +34,7 @@ struct LinkBounds {
     float radiusB = 1.0f;
     float distance = 1.0f;  ///< between the centres
     float sceneArea = 1.0f;
+    bool isCluster = false;  ///< one end or both
 };
 
 /// How far the cosine over an element whose normals lie within `halfAngle` of an axis, which is turned by

@@ -53,37 +53,23 @@ bool readPolygon(const surface::Surface& surface, std::uint32_t patch, Polygon& 
 
 // Whether every line between two corners crosses the polygon's inside: then every line between any two points
 // does, since the crossing points of all lines lie in the hull of those of the corners.
-bool cutsAll(const Polygon& polygon, const hierarchy::Shape& a, const hierarchy::Shape& b, double tolerance) {
+bool cutsAll(const Polygon& polygon, std::span<const Vec3d> a, std::span<const Vec3d> b, double tolerance) {
     const double offset = glm::dot(polygon.normal, polygon.corners[0]);
-    std::array<double, 4> ha{};
-    std::array<double, 4> hb{};
-    for (std::uint32_t i = 0; i < a.cornerCount; ++i) {
-        ha[i] = glm::dot(polygon.normal, Vec3d(a.corners[i])) - offset;
-    }
-    for (std::uint32_t i = 0; i < b.cornerCount; ++i) {
-        hb[i] = glm::dot(polygon.normal, Vec3d(b.corners[i])) - offset;
-    }
-    const double side = ha[0] > 0.0 ? 1.0 : -1.0;
-    const auto beyond = [tolerance](double h) { return h > tolerance; };
-    for (std::uint32_t i = 0; i < a.cornerCount; ++i) {
-        if (!beyond(side * ha[i])) {
-            return false;
-        }
-    }
-    for (std::uint32_t i = 0; i < b.cornerCount; ++i) {
-        if (!beyond(-side * hb[i])) {
-            return false;
-        }
+    const auto height = [&](const Vec3d& p) { return glm::dot(polygon.normal, p) - offset; };
+    const double side = height(a[0]) > 0.0 ? 1.0 : -1.0;
+    if (std::any_of(a.begin(), a.end(), [&](const Vec3d& p) { return side * height(p) <= tolerance; }) ||
+        std::any_of(b.begin(), b.end(), [&](const Vec3d& p) { return -side * height(p) <= tolerance; })) {
+        return false;
     }
     std::array<Vec3d, 4> inward{};
     for (std::uint32_t k = 0; k < polygon.count; ++k) {
         const Vec3d edge = polygon.corners[(k + 1) % polygon.count] - polygon.corners[k];
         inward[k] = glm::normalize(glm::cross(polygon.normal, edge));
     }
-    for (std::uint32_t i = 0; i < a.cornerCount; ++i) {
-        for (std::uint32_t j = 0; j < b.cornerCount; ++j) {
-            const Vec3d p =
-                Vec3d(a.corners[i]) + (ha[i] / (ha[i] - hb[j])) * (Vec3d(b.corners[j]) - Vec3d(a.corners[i]));
+    for (const Vec3d& from : a) {
+        const double h = height(from);
+        for (const Vec3d& to : b) {
+            const Vec3d p = from + (h / (h - height(to))) * (to - from);
             for (std::uint32_t k = 0; k < polygon.count; ++k) {
                 if (glm::dot(inward[k], p - polygon.corners[k]) < tolerance) {
                     return false;
@@ -92,6 +78,38 @@ bool cutsAll(const Polygon& polygon, const hierarchy::Shape& a, const hierarchy:
         }
     }
     return true;
+}
+
+/// Points whose hull holds a node: corners of a planar element, of the box of anything else.
+struct HullPoints {
+    std::array<Vec3d, 8> points{};
+    std::size_t count = 0;
+
+    explicit HullPoints(const hierarchy::Shape& shape) {
+        for (std::uint32_t i = 0; i < shape.cornerCount; ++i) {
+            points[count++] = Vec3d(shape.corners[i]);
+        }
+    }
+    HullPoints(const Vec3d& lower, const Vec3d& upper) {
+        for (unsigned i = 0; i < 8; ++i) {
+            points[count++] = Vec3d((i & 1u) != 0 ? upper.x : lower.x, (i & 2u) != 0 ? upper.y : lower.y,
+                                    (i & 4u) != 0 ? upper.z : lower.z);
+        }
+    }
+    std::span<const Vec3d> span() const { return {points.data(), count}; }
+};
+
+HullPoints hullOf(const hierarchy::Hierarchy& hierarchy, NodeId id) {
+    if (hierarchy.kind(id) == hierarchy::NodeKind::cluster) {
+        const hierarchy::Extent& box = hierarchy.extent(id);
+        return {Vec3d(box.lower), Vec3d(box.upper)};
+    }
+    const hierarchy::Shape& shape = hierarchy.shape(id);
+    if (shape.isPlanar) {
+        return HullPoints(shape);
+    }
+    const Extent e = extentOf(shape);
+    return {e.lower, e.upper};
 }
 
 }  // namespace
@@ -227,7 +245,7 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
                 continue;
             }
             if (bothPlanar && alpha == scene::AlphaMode::opaque &&
-                cutsAll(polygon, shapeA, shapeB, tolerance)) {
+                cutsAll(polygon, HullPoints(shapeA).span(), HullPoints(shapeB).span(), tolerance)) {
                 return ShaftContent::blocked;
             }
         }
@@ -236,6 +254,20 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
         }
     }
     return candidates == 0 ? ShaftContent::empty : ShaftContent::unknown;
+}
+
+bool isCutOff(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b,
+              double tolerance) {
+    const Vec3 from = hierarchy.shape(a).center;
+    const auto hit = rays.closest({from, 0.0f, hierarchy.shape(b).center - from, 1.0f});
+    if (!hit) {
+        return false;
+    }
+    const scene::Object& object = hierarchy.scene().objects[base::index(hit->object)];
+    Polygon polygon;
+    return hierarchy.scene().materials[object.material].alphaMode == scene::AlphaMode::opaque &&
+           readPolygon(*object.surface, hit->patch, polygon) &&
+           cutsAll(polygon, hullOf(hierarchy, a).span(), hullOf(hierarchy, b).span(), tolerance);
 }
 
 }  // namespace fluxwalk::transport

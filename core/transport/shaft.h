@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/hierarchy/hierarchy.h"
+#include "core/rays/ray_scene.h"
 
 namespace fluxwalk::transport {
 
@@ -43,5 +44,10 @@ class Shaft {
 /// Looks for occluders between two elements. Certain in both directions: `empty` and `blocked` need no rays,
 /// here and for all descendants of the pair.
 ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b, double tolerance);
+
+/// Whether one polygon, the one that the line between their centres meets, cuts all lines between two nodes
+/// of which at least one is a cluster. Certain, for all that is below the two, too.
+bool isCutOff(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b,
+              double tolerance);
 
 }  // namespace fluxwalk::transport

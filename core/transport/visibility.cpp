@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
 #include "core/hierarchy/local_frame.h"
+#include "core/transport/cluster_points.h"
 #include "core/transport/contact_visibility.h"
 #include "core/transport/element_sampler.h"
 
@@ -122,7 +124,27 @@ class Pairing {
     std::array<std::uint8_t, 8> rows_{};
 };
 
-Stage castPairs(const rays::RayScene& rays, const ElementSampler& a, const ElementSampler& b, unsigned side,
+/// Points of an element or of a cluster's surfaces.
+class EndSampler {
+  public:
+    EndSampler(const hierarchy::Hierarchy& hierarchy, NodeId id, double shift) {
+        if (hierarchy.kind(id) == hierarchy::NodeKind::cluster) {
+            cluster_.emplace(hierarchy, id);
+        } else {
+            element_.emplace(hierarchy, id, shift);
+        }
+    }
+    SurfaceSample inStratum(unsigned stratum, unsigned side, double jx, double jy) const {
+        return element_ ? element_->inStratum(stratum, side, jx, jy)
+                        : cluster_->inStratum(stratum, side, jx, jy);
+    }
+
+  private:
+    std::optional<ElementSampler> element_;
+    std::optional<ClusterSampler> cluster_;
+};
+
+Stage castPairs(const rays::RayScene& rays, const EndSampler& a, const EndSampler& b, unsigned side,
                 std::uint64_t key) {
     const unsigned count = side * side;
     std::array<rays::Ray, kSecondRays> bundle;
@@ -176,8 +198,8 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         std::swap(keyA, keyB);
     }
     const std::uint64_t key = base::combine(keyA, keyB);
-    const ElementSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
-    const ElementSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
+    const EndSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
+    const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
     Stage stage = castPairs(rays, onA, onB, isEdge ? 8 : 4, key);
     VisibilitySample sample = toSample(stage);
     if (sample.isMixed) {
@@ -189,7 +211,8 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
         const float distance = glm::distance(shapeA.center, shapeB.center);
         const float reach = shapeA.radius + shapeB.radius;
-        if (distance < kNearPair * reach) {
+        const bool areElements = shapeA.cornerCount > 0 && shapeB.cornerCount > 0;
+        if (areElements && distance < kNearPair * reach) {
             for (unsigned round = 1; round < kNearRounds; ++round) {
                 stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
             }

@@ -30,12 +30,12 @@ inline constexpr unsigned kSecondRays = 64;
 inline constexpr float kNearPair = 1.5f;
 inline constexpr unsigned kNearRounds = 16;
 
-/// Between two elements: stratified on both, every stratum of each used once, kernel-weighted. Keyed by the
-/// names of the pair, so the same for (a, b) and (b, a). `isEdge`: the pair above was partly blocked, so that
-/// a first stage of few rays would too often take a thin beam or a thin shadow for none. Which pairs were
-/// partly blocked depends on the rays that said so, and what is refined once is not refined back: light would
-/// be lost through every opening (room behind one: 1.4 % at 50,000 links without, .2 % with, for 5 % more
-/// time on the Cornell box).
+/// Between two elements or clusters: stratified on both, every stratum of each used once, kernel-weighted.
+/// Keyed by the names of the pair, so the same for (a, b) and (b, a). `isEdge`: the pair above was partly
+/// blocked, so that a first stage of few rays would too often take a thin beam or a thin shadow for none.
+/// Which pairs were partly blocked depends on the rays that said so, and what is refined once is not refined
+/// back: light would be lost through every opening (room behind one: 1.4 % at 50,000 links without, .2 %
+/// with, for 5 % more time on the Cornell box).
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
                                   NodeId b, bool isEdge = false);
 

@@ -1,0 +1,193 @@
+#include "core/transport/cluster_factor.h"
+
+#include <algorithm>
+
+#include "core/base/photometry.h"
+#include "core/transport/cluster_points.h"
+
+namespace fluxwalk::transport {
+
+namespace {
+
+using base::dot;
+using base::kLanes;
+using base::Lanes3;
+using base::splat;
+
+using Values = std::array<Lanes, kClusterBlocks>;
+
+FLUXWALK_INLINE Lanes3 splatLane(const Lanes3& v, int lane) {
+    return {splat(v.x[lane]), splat(v.y[lane]), splat(v.z[lane])};
+}
+
+// Adds what the points of b, of `areaB` m2 each, send to eight points. A point stands for a disc, so that
+// near ones stay finite (cubatureFactor in form_factor.cpp).
+FLUXWALK_INLINE Lanes receive(const Lanes3& x, const Lanes3& n, const ClusterPoints& b) {
+    Lanes sum = splat(0.0);
+    for (unsigned j = 0; j < kClusterPoints; ++j) {
+        const unsigned block = j / kLanes;
+        const int lane = static_cast<int>(j % kLanes);
+        const Lanes3 to = splatLane(b.position[block], lane) - x;
+        const Lanes3 m = splatLane(b.normal[block], lane);
+        const double area = b.area[block][lane];
+        const Lanes r2 = dot(to, to);
+        const Lanes facing = base::maxLanes(dot(n, to), splat(0.0)) * base::maxLanes(-dot(m, to), splat(0.0));
+        sum += area * facing / base::maxLanes(base::kPi * r2 * r2 + area * facing, splat(1e-300));
+    }
+    return sum;
+}
+
+struct BothClusters {
+    Values atA{};
+    Values atB{};
+};
+
+FLUXWALK_INLINE BothClusters exchange(const ClusterPoints& a, const ClusterPoints& b) {
+    BothClusters result;
+    for (unsigned k = 0; k < kClusterBlocks; ++k) {
+        result.atA[k] = receive(a.position[k], a.normal[k], b);
+        result.atB[k] = receive(b.position[k], b.normal[k], a);
+    }
+    return result;
+}
+
+[[gnu::target("avx2")]] BothClusters exchangeAvx2(const ClusterPoints& a, const ClusterPoints& b) {
+    return exchange(a, b);
+}
+
+BothClusters exchangeBaseline(const ClusterPoints& a, const ClusterPoints& b) {
+    return exchange(a, b);
+}
+
+[[gnu::target("avx2")]] Lanes receiveAvx2(const Lanes3& x, const Lanes3& n, const ClusterPoints& b) {
+    return receive(x, n, b);
+}
+
+Lanes receiveBaseline(const Lanes3& x, const Lanes3& n, const ClusterPoints& b) {
+    return receive(x, n, b);
+}
+
+bool hasAvx2() {
+    static const bool kHas = __builtin_cpu_supports("avx2") != 0;
+    return kHas;
+}
+
+/// What the points of a cluster receive, against what its patches' shares give them.
+struct Received {
+    double power = 0.0;   ///< m2
+    double shares = 0.0;  ///< sum over the points, as sumShares() over the patches
+    double spread = 0.0;
+};
+
+Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, const Values& values,
+                   const hierarchy::Shape& other) {
+    Received r;
+    std::array<double, kClusterPoints> share{};
+    for (unsigned k = 0; k < kClusterPoints; ++k) {
+        const unsigned block = k / kLanes;
+        const int lane = static_cast<int>(k % kLanes);
+        share[k] = static_cast<double>(patchShare(h.shape(h.patches()[points.patch[k]]), other));
+        r.power += points.area[block][lane] * values[block][lane];
+        r.shares += points.area[block][lane] * share[k];
+    }
+    if (!(r.power > 0.0)) {
+        return r;
+    }
+    const double perShare = r.shares > 0.0 ? r.power / r.shares : 0.0;
+    double off = 0.0;
+    for (unsigned k = 0; k < kClusterPoints; ++k) {
+        const unsigned block = k / kLanes;
+        const int lane = static_cast<int>(k % kLanes);
+        off += points.area[block][lane] * std::abs(values[block][lane] - perShare * share[k]);
+    }
+    r.spread = 2.0 * off / r.power;
+    return r;
+}
+
+// The points are few: the sums over all patches are better known.
+double correct(const hierarchy::Hierarchy& h, NodeId cluster, const hierarchy::Shape& other,
+               const Received& received) {
+    constexpr double kMost = 4.0;
+    if (!(received.shares > 0.0)) {
+        return 1.0;
+    }
+    const auto shares = static_cast<double>(sumShares(h, cluster, other));
+    return std::clamp(shares / received.shares, 1.0 / kMost, kMost);
+}
+
+PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
+    const ClusterPoints pointsA = makeClusterPoints(h, a);
+    const ClusterPoints pointsB = makeClusterPoints(h, b);
+    const BothClusters both = hasAvx2() ? exchangeAvx2(pointsA, pointsB) : exchangeBaseline(pointsA, pointsB);
+    const Received atA = summarize(h, pointsA, both.atA, h.shape(b));
+    const Received atB = summarize(h, pointsB, both.atB, h.shape(a));
+    PairFactor result;
+    result.evaluations = 2 * kClusterPoints * kClusterPoints;
+    result.coupling =
+        0.5 * (atA.power + atB.power) * correct(h, a, h.shape(b), atA) * correct(h, b, h.shape(a), atB);
+    result.spreadA = atA.spread;
+    result.spreadB = atB.spread;
+    return result;
+}
+
+PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId element) {
+    const ClusterPoints points = makeClusterPoints(h, cluster);
+    const ElementPoints e = makeElementPoints(h, element);
+    Values values{};
+    for (unsigned k = 0; k < kClusterBlocks; ++k) {
+        values[k] = computePointFactors(points.position[k], points.normal[k], e);
+    }
+    const Received received = summarize(h, points, values, h.shape(element));
+    PairFactor result;  // a: the cluster
+    result.evaluations = kClusterPoints * (e.contourCount + kLanes);
+    if (!(received.power > 0.0)) {
+        return result;
+    }
+    result.coupling = received.power * correct(h, cluster, h.shape(element), received) *
+                      static_cast<double>(h.shape(element).exposed);
+    result.spreadA = received.spread;
+    const Lanes atElement =
+        hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);
+    std::array<double, kLanes> seen{};
+    double mean = 0.0;
+    for (int i = 0; i < kLanes; ++i) {
+        seen[static_cast<std::size_t>(i)] = atElement[i];
+        mean += e.weight[i] * atElement[i];
+    }
+    const LinearFit fit = fitLinear(e, seen, mean);
+    if (mean > 0.0) {
+        result.gradientB = fit.gradient;
+        result.spreadB = fit.deviation / mean;
+    } else {
+        result.spreadB = 2.0;
+    }
+    return result;
+}
+
+}  // namespace
+
+float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const hierarchy::Shape& other) {
+    double sum = 0.0;
+    for (const NodeId id : hierarchy.patchesBelow(cluster)) {
+        const hierarchy::Shape& shape = hierarchy.shape(id);
+        sum += static_cast<double>(shape.exposedArea() * patchShare(shape, other));
+    }
+    return static_cast<float>(sum);
+}
+
+PairFactor computeClusterFactor(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b) {
+    const bool isClusterA = hierarchy.kind(a) == hierarchy::NodeKind::cluster;
+    const bool isClusterB = hierarchy.kind(b) == hierarchy::NodeKind::cluster;
+    if (isClusterA && isClusterB) {
+        return betweenClusters(hierarchy, a, b);
+    }
+    if (isClusterA) {
+        return withElement(hierarchy, a, b);
+    }
+    PairFactor factor = withElement(hierarchy, b, a);
+    std::swap(factor.gradientA, factor.gradientB);
+    std::swap(factor.spreadA, factor.spreadB);
+    return factor;
+}
+
+}  // namespace fluxwalk::transport
