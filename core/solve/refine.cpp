@@ -221,6 +221,14 @@ class Refinement {
         if (link.a == link.b) {
             return judgeSelf(link.a);
         }
+        if (isCluster(link.a) || isCluster(link.b)) {
+            if (isMinorPair(link.a, link.b)) {
+                return Verdict::accept;
+            }
+            if (!areApart(link.a, link.b) || link.coupling <= 0.0f) {
+                return splitCluster(link.a, link.b);
+            }
+        }
         const float v = link.visibility();
         const NodeKind kindB = hierarchy_.kind(link.b);
         // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
@@ -296,6 +304,25 @@ class Refinement {
         return d;
     }
 
+    bool isCluster(NodeId id) const { return hierarchy_.kind(id) == NodeKind::cluster; }
+
+    Verdict splitCluster(NodeId a, NodeId b) const {
+        const bool isA = isCluster(a) && isCluster(b)
+                             ? hierarchy_.shape(a).radius >= hierarchy_.shape(b).radius
+                             : isCluster(a);
+        return isA ? Verdict::splitA : Verdict::splitB;
+    }
+
+    // Whether all that a pair could exchange, were nothing lost on the way, is below the threshold.
+    bool isMinorPair(NodeId a, NodeId b) const {
+        const auto radiosity = [this](NodeId id) {
+            const hierarchy::Light& light = hierarchy_.light(id);
+            return base::channelMean(light.radiosity) + light.range();
+        };
+        const float area = std::min(hierarchy_.shape(a).exposedArea(), hierarchy_.shape(b).exposedArea());
+        return area * std::max(radiosity(a), radiosity(b)) <= threshold_ * sceneArea_;
+    }
+
     // Whether points stand for a cluster in its exchange with another node: clusters must be apart by their
     // spheres, an element, whose factor is exact, by its box.
     bool areApart(NodeId a, NodeId b) const {
@@ -322,8 +349,6 @@ class Refinement {
         Decision d;
         d.link.a = pair.a;
         d.link.b = pair.b;
-        const bool clusterA = hierarchy_.kind(pair.a) == NodeKind::cluster;
-        const bool clusterB = hierarchy_.kind(pair.b) == NodeKind::cluster;
         const Shape& a = hierarchy_.shape(pair.a);
         const Shape& b = hierarchy_.shape(pair.b);
         if (a.area > 0.0f && b.area > 0.0f &&
@@ -333,25 +358,24 @@ class Refinement {
         }
         // Light sources without area stay with single patches.
         const bool areSurfaces = a.area > 0.0f && b.area > 0.0f;
-        if (!problem_.options.clusterLinks || !areSurfaces || !areApart(pair.a, pair.b)) {
-            if (clusterA && clusterB) {
-                d.verdict = a.radius >= b.radius ? Verdict::splitA : Verdict::splitB;
-            } else {
-                d.verdict = clusterA ? Verdict::splitA : Verdict::splitB;
-            }
+        const bool isMinor = areSurfaces && isMinorPair(pair.a, pair.b);
+        if (!problem_.options.clusterLinks || !areSurfaces || (!isMinor && !areApart(pair.a, pair.b))) {
+            d.verdict = splitCluster(pair.a, pair.b);
             return d;
         }
         if (a.exposedArea() <= 0.0f || b.exposedArea() <= 0.0f) {
             return d;
         }
         Coefficient c;
-        service_.compute(std::span(&pair, 1), std::span(&c, 1));
+        Query query = pair;
+        query.isMinor = isMinor;
+        service_.compute(std::span(&query, 1), std::span(&c, 1));
         count(c, counters);
         if (c.isBlocked) {
             return d;
         }
         setCoefficient(d.link, c);
-        d.verdict = c.coupling > 0.0f ? judge(d.link) : chooseSplit(d.link, a.radius >= b.radius);
+        d.verdict = judge(d.link);
         return d;
     }
 
@@ -439,6 +463,7 @@ class Refinement {
 
 bool refineLinks(Problem& problem, double threshold, const std::function<bool()>& shouldStop) {
     const StageTimer timer(problem.statistics.times.refine);
+    problem.hierarchy.pullClusters();
     Refinement refinement(problem, threshold);
     const bool isFirst = problem.links.links.empty();
     std::vector<Query> pairs = isFirst ? refinement.fromRoot() : refinement.fromStandingLinks();

@@ -127,7 +127,9 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
         return out;
     }
     const PairFactor factor = computeClusterFactor(hierarchy_, query.a, query.b);
-    out.coupling = static_cast<float>(factor.coupling);
+    // Points of clusters that overlap may come too near to each other; nothing sends more than it has.
+    out.coupling = std::min({static_cast<float>(factor.coupling), hierarchy_.shape(query.a).exposedArea(),
+                             hierarchy_.shape(query.b).exposedArea()});
     out.gradientA = base::Vec2(factor.gradientA);
     out.gradientB = base::Vec2(factor.gradientB);
     out.spreadA = static_cast<float>(factor.spreadA);
@@ -136,7 +138,10 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
     if (out.coupling <= 0.0f) {
         return out;
     }
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, query.isEdge);
+    const RayEffort effort = query.isMinor  ? RayEffort::first
+                             : query.isEdge ? RayEffort::second
+                                            : RayEffort::staged;
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, effort);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);
@@ -188,7 +193,9 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         case ShaftContent::unknown:
             break;
     }
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, query.isEdge);
+    const VisibilitySample seen =
+        sampleVisibility(hierarchy_, rays_, query.a, query.b,
+                         query.isEdge ? RayEffort::second : RayEffort::staged, out.coupling);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);

@@ -189,7 +189,7 @@ VisibilitySample toSample(const Stage& stage) {
 }  // namespace
 
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b, bool isEdge) {
+                                  NodeId b, RayEffort effort, float coupling) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
     const bool isSwapped = keyA > keyB;
@@ -200,9 +200,10 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const std::uint64_t key = base::combine(keyA, keyB);
     const EndSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
     const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
+    const bool isEdge = effort == RayEffort::second;
     Stage stage = castPairs(rays, onA, onB, isEdge ? 8 : 4, key);
     VisibilitySample sample = toSample(stage);
-    if (sample.isMixed) {
+    if (sample.isMixed && effort != RayEffort::first) {
         const unsigned firstRays = stage.count;
         if (!isEdge) {
             stage = castPairs(rays, onA, onB, 8, base::mix(key));
@@ -220,7 +221,8 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         sample = toSample(stage);
         sample.isMixed = true;
         unsigned count = stage.count + (isEdge ? 0 : firstRays);
-        if (distance < reach && shapeA.isPlanar && shapeB.isPlanar) {
+        const float least = std::min(shapeA.exposedArea(), shapeB.exposedArea());
+        if (distance < reach && shapeA.isPlanar && shapeB.isPlanar && coupling > kContactFactor * least) {
             const ContactSample contact = sampleContact(hierarchy, rays, a, b, key);
             count += contact.rays;
             if (contact.seen > 0.0 && contact.seen < contact.sent) {

@@ -214,7 +214,9 @@ TEST(VisibilitySampling, looksCloserBelowAPartlyBlockedPair) {
     Built built(halfHidden(0.97, kUnit));
     const NodeId a = object0(built);
     const NodeId b = object1(built);
-    EXPECT_EQ(sampleVisibility(built.tree, built.rays, a, b, true).rays % transport::kSecondRays, 0);
+    EXPECT_EQ(sampleVisibility(built.tree, built.rays, a, b, transport::RayEffort::second).rays %
+                  transport::kSecondRays,
+              0);
     Built free(halfHidden(2.0, kUnit));
     EXPECT_EQ(sampleVisibility(free.tree, free.rays, object0(free), object1(free)).rays,
               transport::kFirstRays);
