@@ -6,15 +6,12 @@
 #include "core/base/check.h"
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/blueprint.h"
 #include "core/hierarchy/exposure.h"
 
 namespace fluxwalk::hierarchy {
 
 namespace {
-
-bool isLuminaire(const scene::Scene& scene, std::uint32_t object) {
-    return scene.materials[scene.objects[object].material].isEmissive();
-}
 
 // Whether another patch's box reaches into the inside of this box (shrunk, so that walls that meet at an edge
 // do not count).
@@ -49,114 +46,6 @@ bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::Patc
     return false;
 }
 
-/// The tree before its nodes exist: patches under clusters, luminaires and sources in subtrees of their own.
-struct Blueprint {
-    struct Node {
-        NodeKind kind = NodeKind::cluster;
-        bool back = false;
-        std::uint32_t item = 0;  ///< shaft item of an element, index of a light
-        NodeId parent = NodeId::none;
-        NodeId firstChild = NodeId::none;
-    };
-    std::vector<Node> nodes;
-};
-
-/// Loose binary tree that a blueprint is laid out from.
-struct Sketch {
-    struct Node {
-        Blueprint::Node what;
-        std::array<std::uint32_t, 2> children{};
-    };
-    std::vector<Node> nodes;
-
-    std::uint32_t addLeaf(NodeKind kind, std::uint32_t item, bool back) {
-        nodes.push_back({{kind, back, item, NodeId::none, NodeId::none}, {}});
-        return static_cast<std::uint32_t>(nodes.size() - 1);
-    }
-    std::uint32_t addPair(std::uint32_t a, std::uint32_t b) {
-        nodes.push_back({{}, {a, b}});
-        return static_cast<std::uint32_t>(nodes.size() - 1);
-    }
-    std::uint32_t addChain(const std::vector<std::uint32_t>& parts) {
-        std::uint32_t top = parts.front();
-        for (std::size_t i = 1; i < parts.size(); ++i) {
-            top = addPair(top, parts[i]);
-        }
-        return top;
-    }
-
-    // Copies a spatial tree's topology; a patch reached on both sides becomes a pair.
-    std::uint32_t addTree(const rays::SpatialTree& tree, std::span<const std::uint32_t> items,
-                          std::span<const std::array<bool, 2>> sides) {
-        std::vector<std::uint32_t> made(tree.nodes().size());
-        for (std::size_t i = tree.nodes().size(); i-- > 0;) {
-            const rays::SpatialTree::Node& node = tree.nodes()[i];
-            if (!node.isLeaf()) {
-                made[i] = addPair(made[i + 1], made[node.right]);
-                continue;
-            }
-            std::vector<std::uint32_t> parts;
-            for (const bool back : {false, true}) {
-                if (sides[node.item][back ? 1 : 0]) {
-                    parts.push_back(addLeaf(NodeKind::element, items[node.item], back));
-                }
-            }
-            made[i] = addChain(parts);
-        }
-        return made.front();
-    }
-
-    Blueprint layOut(std::uint32_t root) const {
-        Blueprint plan;
-        std::vector<std::uint32_t> from{root};
-        plan.nodes.push_back(nodes[root].what);
-        // Breadth first: the children of one node are two neighbours.
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            if (plan.nodes[i].kind != NodeKind::cluster) {
-                continue;
-            }
-            plan.nodes[i].firstChild = NodeId{static_cast<std::uint32_t>(from.size())};
-            for (const std::uint32_t child : nodes[from[i]].children) {
-                from.push_back(child);
-                plan.nodes.push_back(nodes[child].what);
-                plan.nodes.back().parent = NodeId{static_cast<std::uint32_t>(i)};
-            }
-        }
-        return plan;
-    }
-};
-
-Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes,
-                        const base::Executor& executor) {
-    const scene::Scene& scene = h.scene();
-    Sketch sketch;
-    std::vector<std::uint32_t> parts;
-    for (const bool luminaires : {true, false}) {
-        std::vector<base::Box> chosen;
-        std::vector<std::uint32_t> items;
-        std::vector<std::array<bool, 2>> sides;
-        for (std::uint32_t item = 0; item < h.shaftItems().size(); ++item) {
-            const std::uint32_t object = h.shaftItems()[item].object;
-            const std::array<bool, 2> reached = h.reached().sides[object];
-            if ((reached[0] || reached[1]) && isLuminaire(scene, object) == luminaires) {
-                chosen.push_back(boxes[item]);
-                items.push_back(item);
-                sides.push_back(reached);
-            }
-        }
-        if (!chosen.empty()) {
-            parts.push_back(sketch.addTree(rays::SpatialTree(chosen, executor), items, sides));
-        }
-    }
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        parts.push_back(sketch.addLeaf(NodeKind::light, i, false));
-    }
-    if (scene.sky != Rgb(0.0f)) {
-        parts.push_back(sketch.addLeaf(NodeKind::sky, 0, false));
-    }
-    return parts.empty() ? Blueprint{} : sketch.layOut(sketch.addChain(parts));
-}
-
 }  // namespace
 
 float Light::range() const {
@@ -169,14 +58,14 @@ std::size_t Hierarchy::bytesPerNode() {
 }
 
 Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
-                     std::uint64_t seed)
+                     std::uint64_t seed, rays::TreeBuilder builder)
     : scene_(&scene),
       rays_(&rays),
       textures_(scene),
       reached_(findReachedSides(scene, rays, executor, seed)),
       seed_(seed) {
-    collectItems(executor);
-    const Blueprint plan = drawBlueprint(*this, shaftBoxes_, executor);
+    collectItems(executor, builder);
+    const Blueprint plan = drawBlueprint(scene, reached_, {shaftItems_, shaftBoxes_}, builder, executor);
     resize(plan.nodes.size());
     patchNodes_.assign(shaftItems_.size(), {NodeId::none, NodeId::none});
     // Top down, so that children are one block behind each other. The blueprint's indices become the node
@@ -207,7 +96,7 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     shapeClusters();
 }
 
-void Hierarchy::collectItems(const base::Executor& executor) {
+void Hierarchy::collectItems(const base::Executor& executor, rays::TreeBuilder builder) {
     for (std::uint32_t o = 0; o < scene_->objects.size(); ++o) {
         firstShaftItem_.push_back(static_cast<std::uint32_t>(shaftItems_.size()));
         for (std::uint32_t p = 0; p < scene_->objects[o].surface->patchCount(); ++p) {
@@ -222,7 +111,7 @@ void Hierarchy::collectItems(const base::Executor& executor) {
             shaftBoxes_[i] = surface.bounds(patch, surface::wholePatch(surface.domain(patch))).box;
         }
     });
-    shaftTree_ = rays::SpatialTree(shaftBoxes_, executor);
+    shaftTree_ = rays::buildTree(builder, {shaftBoxes_}, executor);
 }
 
 void Hierarchy::resize(std::size_t count) {

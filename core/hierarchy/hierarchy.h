@@ -8,7 +8,7 @@
 
 #include "core/base/ids.h"
 #include "core/hierarchy/reach.h"
-#include "core/rays/spatial_tree.h"
+#include "core/rays/tree_builder.h"
 #include "core/scene/texture.h"
 #include "core/surface/region.h"
 
@@ -69,9 +69,9 @@ struct Light {
 
 class Hierarchy {
   public:
-    /// Builds patches of the reached sides and the cluster tree above them.
+    /// Builds patches of the reached sides and, by `builder`, the cluster tree above them.
     Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
-              std::uint64_t seed);
+              std::uint64_t seed, rays::TreeBuilder builder = rays::TreeBuilder::sah);
 
     std::size_t nodeCount() const { return parent_.size(); }
     std::size_t leafCount() const { return leafCount_; }
@@ -126,7 +126,7 @@ class Hierarchy {
     double totalArea() const { return totalArea_; }
 
   private:
-    void collectItems(const base::Executor& executor);
+    void collectItems(const base::Executor& executor, rays::TreeBuilder builder);
     void resize(std::size_t count);
     void shapeElement(NodeId id, const surface::Region& region);
     void refreshExposure(NodeId id);
