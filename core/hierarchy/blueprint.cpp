@@ -86,7 +86,7 @@ struct ReachedPatches {
     std::vector<std::uint32_t> items;  ///< shaft items
     std::vector<std::array<bool, 2>> sides;
 
-    ReachedPatches(const scene::Scene& scene, const ReachedSides& sidesOf, const PatchBoxes& patches,
+    ReachedPatches(const scene::Scene& scene, const ReachedSides& sidesOf, const rays::PatchTree& patches,
                    bool luminaires, const base::Executor& executor) {
         for (std::uint32_t item = 0; item < patches.items.size(); ++item) {
             const std::uint32_t object = patches.items[item].object;
@@ -118,8 +118,9 @@ struct ReachedPatches {
 
 }  // namespace
 
-Blueprint drawBlueprint(const scene::Scene& scene, const ReachedSides& reached, const PatchBoxes& patches,
-                        rays::TreeBuilder builder, const base::Executor& executor) {
+Blueprint drawBlueprint(const scene::Scene& scene, const ReachedSides& reached,
+                        const rays::PatchTree& patches, rays::TreeBuilder builder,
+                        const base::Executor& executor) {
     Sketch sketch;
     std::vector<std::uint32_t> parts;
     for (const bool luminaires : {true, false}) {

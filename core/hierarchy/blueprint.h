@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/hierarchy/hierarchy.h"
@@ -20,15 +19,10 @@ struct Blueprint {
     std::vector<Node> nodes;
 };
 
-/// All patches of all objects, reached or not, and their boxes.
-struct PatchBoxes {
-    std::span<const Hierarchy::PatchRef> items;
-    std::span<const base::Box> boxes;
-};
-
-/// Clusters by `builder` over the patches of the reached sides, breadth-first. Empty where nothing is reached
-/// and no source shines.
-Blueprint drawBlueprint(const scene::Scene& scene, const ReachedSides& reached, const PatchBoxes& patches,
-                        rays::TreeBuilder builder, const base::Executor& executor);
+/// Clusters by `builder` over the patches of the reached sides in `patches`, breadth-first. Empty where
+/// nothing is reached and no source shines.
+Blueprint drawBlueprint(const scene::Scene& scene, const ReachedSides& reached,
+                        const rays::PatchTree& patches, rays::TreeBuilder builder,
+                        const base::Executor& executor);
 
 }  // namespace fluxwalk::hierarchy

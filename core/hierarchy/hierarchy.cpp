@@ -15,8 +15,8 @@ namespace {
 
 // Whether another patch's box reaches into the inside of this box (shrunk, so that walls that meet at an edge
 // do not count).
-bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::PatchRef> items,
-                  const base::Box& box, double margin, std::uint32_t object, std::uint32_t patch) {
+bool touchesOther(const rays::SpatialTree& tree, std::span<const rays::PatchRef> items, const base::Box& box,
+                  double margin, std::uint32_t object, std::uint32_t patch) {
     base::Box inner = box;
     for (int i = 0; i < 3; ++i) {
         // Flat boxes grow along their thin axis and shrink along the others.
@@ -64,10 +64,13 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
       textures_(scene),
       reached_(findReachedSides(scene, rays, executor, seed)),
       seed_(seed) {
-    collectItems(executor, builder);
-    const Blueprint plan = drawBlueprint(scene, reached_, {shaftItems_, shaftBoxes_}, builder, executor);
+    shaft_ = rays.patchTree();
+    if (!shaft_) {
+        shaft_ = std::make_shared<rays::PatchTree>(scene, builder, executor);
+    }
+    const Blueprint plan = drawBlueprint(scene, reached_, *shaft_, builder, executor);
     resize(plan.nodes.size());
-    patchNodes_.assign(shaftItems_.size(), {NodeId::none, NodeId::none});
+    patchNodes_.assign(shaft_->items.size(), {NodeId::none, NodeId::none});
     // Top down, so that children are one block behind each other. The blueprint's indices become the node
     // ids.
     for (std::uint32_t i = 0; i < plan.nodes.size(); ++i) {
@@ -77,8 +80,8 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
         parent_[i] = from.parent;
         firstChild_[i] = from.firstChild;
         if (from.kind == NodeKind::element) {
-            object_[i] = shaftItems_[from.item].object;
-            patchSide_[i] = shaftItems_[from.item].patch * 2 + (from.back ? 1 : 0);
+            object_[i] = shaft_->items[from.item].object;
+            patchSide_[i] = shaft_->items[from.item].patch * 2 + (from.back ? 1 : 0);
             patches_.push_back(id);
             patchNodes_[from.item][from.back ? 1 : 0] = id;
         } else if (from.kind == NodeKind::cluster) {
@@ -94,24 +97,6 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     leafCount_ = patches_.size();
     shapePatches(executor);
     shapeClusters();
-}
-
-void Hierarchy::collectItems(const base::Executor& executor, rays::TreeBuilder builder) {
-    for (std::uint32_t o = 0; o < scene_->objects.size(); ++o) {
-        firstShaftItem_.push_back(static_cast<std::uint32_t>(shaftItems_.size()));
-        for (std::uint32_t p = 0; p < scene_->objects[o].surface->patchCount(); ++p) {
-            shaftItems_.push_back({o, p});
-        }
-    }
-    shaftBoxes_.resize(shaftItems_.size());
-    executor.forRange(shaftItems_.size(), 1024, [this](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const surface::Surface& surface = *scene_->objects[shaftItems_[i].object].surface;
-            const std::uint32_t patch = shaftItems_[i].patch;
-            shaftBoxes_[i] = surface.bounds(patch, surface::wholePatch(surface.domain(patch))).box;
-        }
-    });
-    shaftTree_ = rays::buildTree(builder, {shaftBoxes_}, executor);
 }
 
 void Hierarchy::resize(std::size_t count) {
@@ -132,9 +117,9 @@ void Hierarchy::shapePatches(const base::Executor& executor) {
         for (std::size_t i = begin; i < end; ++i) {
             const NodeId id = patches_[i];
             const ElementName at = name(id);
-            const base::Box& box = shaftBoxes_[firstShaftItem_[at.object] + at.patch];
+            const base::Box& box = shaft_->boxes[shaft_->firstItem[at.object] + at.patch];
             mayHide_[index(id)] =
-                touchesOther(shaftTree_, shaftItems_, box, margin, at.object, at.patch) ? 1 : 0;
+                touchesOther(shaft_->tree, shaft_->items, box, margin, at.object, at.patch) ? 1 : 0;
             shapeElement(id, region(id));
         }
     });
@@ -258,7 +243,7 @@ const surface::Surface& Hierarchy::surfaceOf(NodeId id) const {
 }
 
 NodeId Hierarchy::patchNode(std::uint32_t object, std::uint32_t patch, bool back) const {
-    return patchNodes_[firstShaftItem_[object] + patch][back ? 1 : 0];
+    return patchNodes_[shaft_->firstItem[object] + patch][back ? 1 : 0];
 }
 
 bool Hierarchy::canSplit(NodeId id, double minArea) const {
@@ -297,8 +282,9 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
                 light_[i].residual = 0.25f * light_[p].residual;
                 const surface::Region part = surface::childRegion(surface, patch, whole, c);
                 if (mayHide_[p] != 0) {
-                    const bool touches = touchesOther(
-                        shaftTree_, shaftItems_, surface.bounds(patch, part).box, margin, object_[i], patch);
+                    const bool touches =
+                        touchesOther(shaft_->tree, shaft_->items, surface.bounds(patch, part).box, margin,
+                                     object_[i], patch);
                     // What touches nothing is all outside or all inside, as its middle is.
                     mayHide_[i] = touches || shape_[p].exposedCells != 0xffff ? 1 : 0;
                 }
