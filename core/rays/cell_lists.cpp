@@ -13,9 +13,7 @@ constexpr double kMargin = 1e-5;
 
 }  // namespace
 
-CellLists::CellLists(const SpatialTree& tree, std::span<const base::Box> boxes,
-                     const base::Executor& executor)
-    : grids_(tree.grids().size()) {
+CellLists::CellLists(const SpatialTree& tree, const base::Executor& executor) : grids_(tree.grids().size()) {
     executor.forRange(grids_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t root = tree.grids()[i].node;
@@ -29,7 +27,7 @@ CellLists::CellLists(const SpatialTree& tree, std::span<const base::Box> boxes,
             grid.upper = base::Vec3d(tree.nodes()[root].upper);
             grid.cellSize =
                 (grid.upper - grid.lower) / base::Vec3d(grid.cells[0], grid.cells[1], grid.cells[2]);
-            grid.fill(tree.nodes().subspan(root, last + 1 - root), boxes);
+            grid.fill(tree.nodes(), root, last);
         }
     });
 }
@@ -40,41 +38,41 @@ std::int64_t CellLists::Grid::placeAlong(int axis, double coordinate) const {
     return static_cast<std::int64_t>(std::clamp(place, 0.0, last));
 }
 
-void CellLists::Grid::fill(std::span<const SpatialTree::Node> leavesOf, std::span<const base::Box> boxes) {
-    const auto forCells = [&](const base::Box& box, const auto& body) {
-        std::array<std::int64_t, 3> from{};
-        std::array<std::int64_t, 3> to{};
-        for (int k = 0; k < 3; ++k) {
-            const double margin = kMargin * cellSize[k];
-            from[static_cast<std::size_t>(k)] = placeAlong(k, box.lower[k] - margin);
-            to[static_cast<std::size_t>(k)] = placeAlong(k, box.upper[k] + margin);
-        }
-        for (std::int64_t z = from[2]; z <= to[2]; ++z) {
-            for (std::int64_t y = from[1]; y <= to[1]; ++y) {
-                for (std::int64_t x = from[0]; x <= to[0]; ++x) {
-                    body(static_cast<std::size_t>((z * cells[1] + y) * cells[0] + x));
+void CellLists::Grid::fill(std::span<const SpatialTree::Node> nodes, std::uint32_t first,
+                           std::uint32_t last) {
+    const auto forCells = [&](const auto& body) {
+        for (std::uint32_t node = first; node <= last; ++node) {
+            if (!nodes[node].isLeaf()) {
+                continue;
+            }
+            std::array<std::int64_t, 3> from{};
+            std::array<std::int64_t, 3> to{};
+            for (int k = 0; k < 3; ++k) {
+                const double margin = kMargin * cellSize[k];
+                from[static_cast<std::size_t>(k)] =
+                    placeAlong(k, static_cast<double>(nodes[node].lower[k]) - margin);
+                to[static_cast<std::size_t>(k)] =
+                    placeAlong(k, static_cast<double>(nodes[node].upper[k]) + margin);
+            }
+            for (std::int64_t z = from[2]; z <= to[2]; ++z) {
+                for (std::int64_t y = from[1]; y <= to[1]; ++y) {
+                    for (std::int64_t x = from[0]; x <= to[0]; ++x) {
+                        body(node, static_cast<std::size_t>((z * cells[1] + y) * cells[0] + x));
+                    }
                 }
             }
         }
     };
     // Counted, then filled from each cell's end to its start.
     starts.assign(std::size_t{cells[0]} * cells[1] * cells[2] + 1, 0);
-    for (const SpatialTree::Node& node : leavesOf) {
-        if (node.isLeaf()) {
-            forCells(boxes[node.item], [&](std::size_t cell) { ++starts[cell]; });
-        }
-    }
+    forCells([&](std::uint32_t /*node*/, std::size_t cell) { ++starts[cell]; });
     std::uint32_t end = 0;
     for (std::uint32_t& start : starts) {
         end += start;
         start = end;
     }
-    items.resize(end);
-    for (const SpatialTree::Node& node : leavesOf) {
-        if (node.isLeaf()) {
-            forCells(boxes[node.item], [&](std::size_t cell) { items[--starts[cell]] = node.item; });
-        }
-    }
+    leaves.resize(end);
+    forCells([&](std::uint32_t node, std::size_t cell) { leaves[--starts[cell]] = node; });
 }
 
 CellLists::Walk CellLists::Grid::enter(const base::Vec3d& origin, const base::Vec3d& direction, double tNear,

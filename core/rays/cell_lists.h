@@ -8,12 +8,12 @@
 
 namespace fluxwalk::rays {
 
-/// What lies in the cells of a tree's grids: each item in all cells that its box touches.
+/// What lies in the cells of a tree's grids: each leaf in all cells that its box touches.
 class CellLists {
   public:
-    CellLists(const SpatialTree& tree, std::span<const base::Box> boxes, const base::Executor& executor);
+    CellLists(const SpatialTree& tree, const base::Executor& executor);
 
-    /// Calls visit(item) for the items in the cells along origin + t * direction with t in [tNear, tFar], in
+    /// Calls visit(node) for the leaves in the cells along origin + t * direction with t in [tNear, tFar], in
     /// order of the cells, until it returns true; whether it did. The line must be finite.
     template <class Visit>
     bool walk(std::size_t grid, const base::Vec3d& origin, const base::Vec3d& direction, double tNear,
@@ -22,7 +22,7 @@ class CellLists {
         Walk at = g.enter(origin, direction, tNear, tFar);
         while (at.isInside) {
             for (std::uint32_t i = g.starts[at.cell]; i < g.starts[at.cell + 1]; ++i) {
-                if (visit(g.items[i])) {
+                if (visit(g.leaves[i])) {
                     return true;
                 }
             }
@@ -62,10 +62,10 @@ class CellLists {
         base::Vec3d upper{};
         base::Vec3d cellSize{};
         std::array<std::uint32_t, 3> cells{};
-        std::vector<std::uint32_t> starts;  ///< of each cell's items, and their end
-        std::vector<std::uint32_t> items;
+        std::vector<std::uint32_t> starts;  ///< of each cell's leaves, and their end
+        std::vector<std::uint32_t> leaves;
 
-        void fill(std::span<const SpatialTree::Node> leavesOf, std::span<const base::Box> boxes);
+        void fill(std::span<const SpatialTree::Node> nodes, std::uint32_t first, std::uint32_t last);
         Walk enter(const base::Vec3d& origin, const base::Vec3d& direction, double tNear, double tFar) const;
         std::int64_t placeAlong(int axis, double coordinate) const;
     };

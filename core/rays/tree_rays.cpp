@@ -74,6 +74,22 @@ class Missed {
     std::size_t next_ = 0;
 };
 
+/// Leaves lie in several cells, but need to be tested once: the last ones that were.
+class Tested {
+  public:
+    /// False where it is known already.
+    bool add(std::uint32_t leaf) {
+        std::uint32_t& place = leaves_[leaf % leaves_.size()];
+        const bool isNew = place != leaf;
+        place = leaf;
+        return isNew;
+    }
+
+  private:
+    // No leaf is the root of a grid.
+    std::array<std::uint32_t, 16> leaves_{};
+};
+
 }  // namespace
 
 struct TreeRays::Query {
@@ -112,7 +128,7 @@ TreeRays::TreeRays(std::shared_ptr<const PatchTree> patches, const Occluders& oc
     : patches_(std::move(patches)),
       occluders_(&occluders),
       parts_(patches_->items.size()),
-      cells_(patches_->tree, patches_->boxes, executor) {
+      cells_(patches_->tree, executor) {
     collectTriangles();
     const std::span<const TreeGrid> grids = patches_->tree.grids();
     if (!grids.empty()) {
@@ -180,11 +196,6 @@ bool TreeRays::isMet(std::uint32_t item, Query& query) const {
     return false;
 }
 
-bool TreeRays::isMetInGrid(std::uint32_t grid, Query& query) const {
-    return cells_.walk(grid, query.origin, query.direction, query.tNear, query.tFar,
-                       [&](std::uint32_t item) { return isMet(item, query); });
-}
-
 bool TreeRays::isOccluded(const Ray& ray) const {
     const std::span<const SpatialTree::Node> nodes = patches_->tree.nodes();
     const BoxTest boxes(ray);
@@ -192,6 +203,7 @@ bool TreeRays::isOccluded(const Ray& ray) const {
         return false;
     }
     Query query(ray);
+    Tested tested;
     std::array<std::uint32_t, SpatialTree::kMaxDepth> stack;
     std::size_t depth = 0;
     std::uint32_t at = 0;
@@ -202,7 +214,11 @@ bool TreeRays::isOccluded(const Ray& ray) const {
                 return true;
             }
         } else if (!gridOfNode_.empty() && gridOfNode_[at] != SpatialTree::kNone) {
-            if (isMetInGrid(gridOfNode_[at], query)) {
+            const auto isHit = [&](std::uint32_t leaf) {
+                return tested.add(leaf) && boxes.enter(nodes[leaf]) != INFINITY &&
+                       isMet(nodes[leaf].item, query);
+            };
+            if (cells_.walk(gridOfNode_[at], query.origin, query.direction, query.tNear, query.tFar, isHit)) {
                 return true;
             }
         } else {

@@ -37,7 +37,6 @@ class TreeRays {
 
     void collectTriangles();
     bool isMet(std::uint32_t item, Query& query) const;
-    bool isMetInGrid(std::uint32_t grid, Query& query) const;
 
     std::shared_ptr<const PatchTree> patches_;
     const Occluders* occluders_;
