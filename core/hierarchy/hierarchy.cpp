@@ -6,20 +6,17 @@
 #include "core/base/check.h"
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/blueprint.h"
 #include "core/hierarchy/exposure.h"
 
 namespace fluxwalk::hierarchy {
 
 namespace {
 
-bool isLuminaire(const scene::Scene& scene, std::uint32_t object) {
-    return scene.materials[scene.objects[object].material].isEmissive();
-}
-
 // Whether another patch's box reaches into the inside of this box (shrunk, so that walls that meet at an edge
 // do not count).
-bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::PatchRef> items,
-                  const base::Box& box, double margin, std::uint32_t object, std::uint32_t patch) {
+bool touchesOther(const rays::SpatialTree& tree, std::span<const rays::PatchRef> items, const base::Box& box,
+                  double margin, std::uint32_t object, std::uint32_t patch) {
     base::Box inner = box;
     for (int i = 0; i < 3; ++i) {
         // Flat boxes grow along their thin axis and shrink along the others.
@@ -49,114 +46,6 @@ bool touchesOther(const rays::SpatialTree& tree, std::span<const Hierarchy::Patc
     return false;
 }
 
-/// The tree before its nodes exist: patches under clusters, luminaires and sources in subtrees of their own.
-struct Blueprint {
-    struct Node {
-        NodeKind kind = NodeKind::cluster;
-        bool back = false;
-        std::uint32_t item = 0;  ///< shaft item of an element, index of a light
-        NodeId parent = NodeId::none;
-        NodeId firstChild = NodeId::none;
-    };
-    std::vector<Node> nodes;
-};
-
-/// Loose binary tree that a blueprint is laid out from.
-struct Sketch {
-    struct Node {
-        Blueprint::Node what;
-        std::array<std::uint32_t, 2> children{};
-    };
-    std::vector<Node> nodes;
-
-    std::uint32_t addLeaf(NodeKind kind, std::uint32_t item, bool back) {
-        nodes.push_back({{kind, back, item, NodeId::none, NodeId::none}, {}});
-        return static_cast<std::uint32_t>(nodes.size() - 1);
-    }
-    std::uint32_t addPair(std::uint32_t a, std::uint32_t b) {
-        nodes.push_back({{}, {a, b}});
-        return static_cast<std::uint32_t>(nodes.size() - 1);
-    }
-    std::uint32_t addChain(const std::vector<std::uint32_t>& parts) {
-        std::uint32_t top = parts.front();
-        for (std::size_t i = 1; i < parts.size(); ++i) {
-            top = addPair(top, parts[i]);
-        }
-        return top;
-    }
-
-    // Copies a spatial tree's topology; a patch reached on both sides becomes a pair.
-    std::uint32_t addTree(const rays::SpatialTree& tree, std::span<const std::uint32_t> items,
-                          std::span<const std::array<bool, 2>> sides) {
-        std::vector<std::uint32_t> made(tree.nodes().size());
-        for (std::size_t i = tree.nodes().size(); i-- > 0;) {
-            const rays::SpatialTree::Node& node = tree.nodes()[i];
-            if (!node.isLeaf()) {
-                made[i] = addPair(made[i + 1], made[node.right]);
-                continue;
-            }
-            std::vector<std::uint32_t> parts;
-            for (const bool back : {false, true}) {
-                if (sides[node.item][back ? 1 : 0]) {
-                    parts.push_back(addLeaf(NodeKind::element, items[node.item], back));
-                }
-            }
-            made[i] = addChain(parts);
-        }
-        return made.front();
-    }
-
-    Blueprint layOut(std::uint32_t root) const {
-        Blueprint plan;
-        std::vector<std::uint32_t> from{root};
-        plan.nodes.push_back(nodes[root].what);
-        // Breadth first: the children of one node are two neighbours.
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            if (plan.nodes[i].kind != NodeKind::cluster) {
-                continue;
-            }
-            plan.nodes[i].firstChild = NodeId{static_cast<std::uint32_t>(from.size())};
-            for (const std::uint32_t child : nodes[from[i]].children) {
-                from.push_back(child);
-                plan.nodes.push_back(nodes[child].what);
-                plan.nodes.back().parent = NodeId{static_cast<std::uint32_t>(i)};
-            }
-        }
-        return plan;
-    }
-};
-
-Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes,
-                        const base::Executor& executor) {
-    const scene::Scene& scene = h.scene();
-    Sketch sketch;
-    std::vector<std::uint32_t> parts;
-    for (const bool luminaires : {true, false}) {
-        std::vector<base::Box> chosen;
-        std::vector<std::uint32_t> items;
-        std::vector<std::array<bool, 2>> sides;
-        for (std::uint32_t item = 0; item < h.shaftItems().size(); ++item) {
-            const std::uint32_t object = h.shaftItems()[item].object;
-            const std::array<bool, 2> reached = h.reached().sides[object];
-            if ((reached[0] || reached[1]) && isLuminaire(scene, object) == luminaires) {
-                chosen.push_back(boxes[item]);
-                items.push_back(item);
-                sides.push_back(reached);
-            }
-        }
-        if (!chosen.empty()) {
-            parts.push_back(sketch.addTree(rays::SpatialTree(chosen, executor), items, sides));
-        }
-    }
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        parts.push_back(sketch.addLeaf(NodeKind::light, i, false));
-    }
-    if (scene.sky != Rgb(0.0f)) {
-        parts.push_back(sketch.addLeaf(NodeKind::sky, 0, false));
-    }
-    return parts.empty() ? Blueprint{} : sketch.layOut(sketch.addChain(parts));
-}
-
 }  // namespace
 
 float Light::range() const {
@@ -169,16 +58,19 @@ std::size_t Hierarchy::bytesPerNode() {
 }
 
 Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
-                     std::uint64_t seed)
+                     std::uint64_t seed, rays::TreeBuilder builder)
     : scene_(&scene),
       rays_(&rays),
       textures_(scene),
       reached_(findReachedSides(scene, rays, executor, seed)),
       seed_(seed) {
-    collectItems(executor);
-    const Blueprint plan = drawBlueprint(*this, shaftBoxes_, executor);
+    shaft_ = rays.patchTree();
+    if (!shaft_) {
+        shaft_ = std::make_shared<rays::PatchTree>(scene, builder, executor);
+    }
+    const Blueprint plan = drawBlueprint(scene, reached_, *shaft_, builder, executor);
     resize(plan.nodes.size());
-    patchNodes_.assign(shaftItems_.size(), {NodeId::none, NodeId::none});
+    patchNodes_.assign(shaft_->items.size(), {NodeId::none, NodeId::none});
     // Top down, so that children are one block behind each other. The blueprint's indices become the node
     // ids.
     for (std::uint32_t i = 0; i < plan.nodes.size(); ++i) {
@@ -188,8 +80,8 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
         parent_[i] = from.parent;
         firstChild_[i] = from.firstChild;
         if (from.kind == NodeKind::element) {
-            object_[i] = shaftItems_[from.item].object;
-            patchSide_[i] = shaftItems_[from.item].patch * 2 + (from.back ? 1 : 0);
+            object_[i] = shaft_->items[from.item].object;
+            patchSide_[i] = shaft_->items[from.item].patch * 2 + (from.back ? 1 : 0);
             patchNodes_[from.item][from.back ? 1 : 0] = id;
         } else if (from.kind == NodeKind::cluster) {
             object_[i] = i;  // the name of a cluster is its place in the tree, which the scene fixes
@@ -206,24 +98,6 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     shapePatches(executor);
     shapeClusters();
     sumAreas();
-}
-
-void Hierarchy::collectItems(const base::Executor& executor) {
-    for (std::uint32_t o = 0; o < scene_->objects.size(); ++o) {
-        firstShaftItem_.push_back(static_cast<std::uint32_t>(shaftItems_.size()));
-        for (std::uint32_t p = 0; p < scene_->objects[o].surface->patchCount(); ++p) {
-            shaftItems_.push_back({o, p});
-        }
-    }
-    shaftBoxes_.resize(shaftItems_.size());
-    executor.forRange(shaftItems_.size(), 1024, [this](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const surface::Surface& surface = *scene_->objects[shaftItems_[i].object].surface;
-            const std::uint32_t patch = shaftItems_[i].patch;
-            shaftBoxes_[i] = surface.bounds(patch, surface::wholePatch(surface.domain(patch))).box;
-        }
-    });
-    shaftTree_ = rays::SpatialTree(shaftBoxes_, executor);
 }
 
 void Hierarchy::resize(std::size_t count) {
@@ -244,9 +118,9 @@ void Hierarchy::shapePatches(const base::Executor& executor) {
         for (std::size_t i = begin; i < end; ++i) {
             const NodeId id = patches_[i];
             const ElementName at = name(id);
-            const base::Box& box = shaftBoxes_[firstShaftItem_[at.object] + at.patch];
+            const base::Box& box = shaft_->boxes[shaft_->firstItem[at.object] + at.patch];
             mayHide_[index(id)] =
-                touchesOther(shaftTree_, shaftItems_, box, margin, at.object, at.patch) ? 1 : 0;
+                touchesOther(shaft_->tree, shaft_->items, box, margin, at.object, at.patch) ? 1 : 0;
             shapeElement(id, region(id));
         }
     });
@@ -390,7 +264,7 @@ void Hierarchy::shapeClusters() {
     extent_.resize(patchRange_.size());
     for (const NodeId id : patches_) {
         const ElementName at = name(id);
-        const base::Box& box = shaftBoxes_[firstShaftItem_[at.object] + at.patch];
+        const base::Box& box = shaft_->boxes[shaft_->firstItem[at.object] + at.patch];
         extent_[index(id)] = {Vec3(box.lower), Vec3(box.upper)};
     }
     // Children follow their parents, so one pass from the back sees children first.
@@ -461,7 +335,7 @@ const surface::Surface& Hierarchy::surfaceOf(NodeId id) const {
 }
 
 NodeId Hierarchy::patchNode(std::uint32_t object, std::uint32_t patch, bool back) const {
-    return patchNodes_[firstShaftItem_[object] + patch][back ? 1 : 0];
+    return patchNodes_[shaft_->firstItem[object] + patch][back ? 1 : 0];
 }
 
 bool Hierarchy::canSplit(NodeId id, double minArea) const {
@@ -500,8 +374,9 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
                 light_[i].residual = 0.25f * light_[p].residual;
                 const surface::Region part = surface::childRegion(surface, patch, whole, c);
                 if (mayHide_[p] != 0) {
-                    const bool touches = touchesOther(
-                        shaftTree_, shaftItems_, surface.bounds(patch, part).box, margin, object_[i], patch);
+                    const bool touches =
+                        touchesOther(shaft_->tree, shaft_->items, surface.bounds(patch, part).box, margin,
+                                     object_[i], patch);
                     // What touches nothing is all outside or all inside, as its middle is.
                     mayHide_[i] = touches || shape_[p].exposedCells != 0xffff ? 1 : 0;
                 }

@@ -8,7 +8,7 @@
 
 #include "core/base/ids.h"
 #include "core/hierarchy/reach.h"
-#include "core/rays/spatial_tree.h"
+#include "core/rays/patch_tree.h"
 #include "core/scene/texture.h"
 #include "core/surface/region.h"
 
@@ -77,9 +77,10 @@ struct Light {
 
 class Hierarchy {
   public:
-    /// Builds patches of the reached sides and the cluster tree above them.
+    /// Builds patches of the reached sides and, by `builder`, the cluster tree above them. Shares the tree of
+    /// `rays` for shafts where that has one.
     Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, const base::Executor& executor,
-              std::uint64_t seed);
+              std::uint64_t seed, rays::TreeBuilder builder = rays::TreeBuilder::sah);
 
     std::size_t nodeCount() const { return parent_.size(); }
     std::size_t leafCount() const { return leafCount_; }
@@ -137,17 +138,12 @@ class Hierarchy {
     const scene::Scene& scene() const { return *scene_; }
     const scene::TextureSet& textures() const { return textures_; }
     /// Boxes of all patches of all objects, reached or not, for shafts; `item` indexes shaftItems().
-    const rays::SpatialTree& shaftTree() const { return shaftTree_; }
-    struct PatchRef {
-        std::uint32_t object = 0;
-        std::uint32_t patch = 0;
-    };
-    std::span<const PatchRef> shaftItems() const { return shaftItems_; }
+    const rays::SpatialTree& shaftTree() const { return shaft_->tree; }
+    std::span<const rays::PatchRef> shaftItems() const { return shaft_->items; }
     /// Total area of the reached sides in m2, hidden parts left out.
     double totalArea() const { return totalArea_; }
 
   private:
-    void collectItems(const base::Executor& executor);
     void resize(std::size_t count);
     void shapeElement(NodeId id, const surface::Region& region);
     void refreshExposure(NodeId id);
@@ -161,10 +157,7 @@ class Hierarchy {
     scene::TextureSet textures_;
     ReachedSides reached_;
     std::uint64_t seed_;
-    rays::SpatialTree shaftTree_;
-    std::vector<base::Box> shaftBoxes_;
-    std::vector<PatchRef> shaftItems_;
-    std::vector<std::uint32_t> firstShaftItem_;  ///< of each object
+    std::shared_ptr<const rays::PatchTree> shaft_;
 
     std::vector<NodeId> parent_;
     std::vector<NodeId> firstChild_;

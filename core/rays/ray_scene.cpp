@@ -8,7 +8,7 @@
 #include <embree3/rtcore.h>
 
 #include "core/base/check.h"
-#include "core/scene/texture.h"
+#include "core/rays/tree_rays.h"
 
 namespace fluxwalk::rays {
 
@@ -48,25 +48,8 @@ bool isSafe(const Ray& ray) {
     return bounded(ray.origin) && bounded(ray.direction) && ray.tNear >= 0.0f && ray.tFar >= ray.tNear;
 }
 
-/// What the callbacks of one object need.
-struct Geometry {
-    const surface::Surface* surface = nullptr;
-    /// Triangle-to-patch table; empty where the primitive is the patch.
-    std::span<const std::uint32_t> patches;
-    /// Set where the object has holes: an AlphaMode::mask material with a texture, and the scene's textures.
-    const scene::Material* cutOut = nullptr;
-    const scene::TextureSet* textures = nullptr;
-
-    bool isHole(std::uint32_t patch, const Vec2d& uv) const {
-        return cutOut != nullptr &&
-               scene::coverageAt(*cutOut, *textures,
-                                 surface->texcoord(patch, uv, cutOut->reflectanceTexture.texcoordSet)) ==
-                   0.0f;
-    }
-};
-
 void exactBounds(const RTCBoundsFunctionArguments* args) {
-    const base::Box box = static_cast<const Geometry*>(args->geometryUserPtr)->surface->bounds();
+    const base::Box box = static_cast<const Occluder*>(args->geometryUserPtr)->surface->bounds();
     RTCBounds& out = *args->bounds_o;
     const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -INFINITY); };
     const auto up = [](double v) { return std::nextafter(static_cast<float>(v), INFINITY); };
@@ -86,21 +69,15 @@ Vec3d directionOf(RTCRayN* ray, unsigned n, unsigned i) {
     return {RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i), RTCRayN_dir_z(ray, n, i)};
 }
 
-std::optional<surface::SurfaceHit> meetExact(const Geometry& geometry, RTCRayN* ray, unsigned n, unsigned i) {
-    const Vec3d origin = originOf(ray, n, i);
-    const Vec3d direction = directionOf(ray, n, i);
-    const auto tFar = static_cast<double>(RTCRayN_tfar(ray, n, i));
-    auto found =
-        geometry.surface->intersect(origin, direction, static_cast<double>(RTCRayN_tnear(ray, n, i)), tFar);
-    while (found && geometry.isHole(found->patch, found->uv)) {
-        found = geometry.surface->intersect(origin, direction, found->t, tFar);
-    }
-    return found;
+std::optional<surface::SurfaceHit> meetExact(const Occluder& occluder, RTCRayN* ray, unsigned n, unsigned i) {
+    return occluder.meet(originOf(ray, n, i), directionOf(ray, n, i),
+                         static_cast<double>(RTCRayN_tnear(ray, n, i)),
+                         static_cast<double>(RTCRayN_tfar(ray, n, i)));
 }
 
 // Embree asks for each hit on an object with holes whether it counts; where it does not, the ray goes on.
 void rejectHoles(const RTCFilterFunctionNArguments* args) {
-    const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
+    const auto& occluder = *static_cast<const Occluder*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) {
             continue;
@@ -108,23 +85,23 @@ void rejectHoles(const RTCFilterFunctionNArguments* args) {
         const Vec3d at =
             originOf(args->ray, args->N, i) +
             static_cast<double>(RTCRayN_tfar(args->ray, args->N, i)) * directionOf(args->ray, args->N, i);
-        const std::uint32_t patch = geometry.patches[RTCHitN_primID(args->hit, args->N, i)];
-        if (geometry.isHole(patch, geometry.surface->locate(patch, at))) {
+        const std::uint32_t patch = occluder.patches[RTCHitN_primID(args->hit, args->N, i)];
+        if (occluder.isHole(patch, occluder.surface->locate(patch, at))) {
             args->valid[i] = 0;
         }
     }
 }
 
 void exactIntersect(const RTCIntersectFunctionNArguments* args) {
-    const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
+    const auto& occluder = *static_cast<const Occluder*>(args->geometryUserPtr);
     RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
     RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) {
             continue;
         }
-        if (const auto found = meetExact(geometry, ray, args->N, i)) {
-            const Vec3d n = geometry.surface->evaluate(found->patch, found->uv).normal;
+        if (const auto found = meetExact(occluder, ray, args->N, i)) {
+            const Vec3d n = occluder.surface->evaluate(found->patch, found->uv).normal;
             RTCRayN_tfar(ray, args->N, i) = static_cast<float>(found->t);
             RTCHitN_Ng_x(hit, args->N, i) = static_cast<float>(n.x);
             RTCHitN_Ng_y(hit, args->N, i) = static_cast<float>(n.y);
@@ -137,19 +114,12 @@ void exactIntersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void exactOccluded(const RTCOccludedFunctionNArguments* args) {
-    const auto& geometry = *static_cast<const Geometry*>(args->geometryUserPtr);
+    const auto& occluder = *static_cast<const Occluder*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] != 0 && meetExact(geometry, args->ray, args->N, i)) {
+        if (args->valid[i] != 0 && meetExact(occluder, args->ray, args->N, i)) {
             RTCRayN_tfar(args->ray, args->N, i) = -INFINITY;
         }
     }
-}
-
-// Blended surfaces let all light pass, as do masked ones whose alpha is everywhere below the cutoff.
-bool blocksLight(const scene::Material& material) {
-    const bool isAllHole = material.alphaMode == scene::AlphaMode::mask &&
-                           !material.reflectanceTexture.isSet() && material.alpha < material.alphaCutoff;
-    return material.alphaMode != scene::AlphaMode::blend && !isAllHole;
 }
 
 }  // namespace
@@ -157,10 +127,11 @@ bool blocksLight(const scene::Material& material) {
 struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    /// By object; the callbacks hold pointers into it.
-    std::vector<Geometry> geometries;
-    /// The scene's pictures, where some object has holes.
-    std::optional<scene::TextureSet> textures;
+    /// The callbacks hold pointers into it.
+    Occluders occluders;
+    std::optional<TreeRays> treeRays;
+
+    explicit Impl(const scene::Scene& what) : occluders(what) {}
     ~Impl() {
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
@@ -177,8 +148,8 @@ struct RayScene::Impl {
         FLUXWALK_CHECK(vertices != nullptr && triangles != nullptr);
         std::copy(view.positions.begin(), view.positions.end(), vertices);
         std::copy(view.triangles.begin(), view.triangles.end(), triangles);
-        if (geometries[object].cutOut != nullptr) {
-            rtcSetGeometryUserData(handle, &geometries[object]);
+        if (occluders.objects[object].cutOut != nullptr) {
+            rtcSetGeometryUserData(handle, &occluders.objects[object]);
             rtcSetGeometryIntersectFilterFunction(handle, rejectHoles);
             rtcSetGeometryOccludedFilterFunction(handle, rejectHoles);
         }
@@ -188,7 +159,7 @@ struct RayScene::Impl {
     void addExact(unsigned object) {
         const RTCGeometry handle = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(handle, 1);
-        rtcSetGeometryUserData(handle, &geometries[object]);
+        rtcSetGeometryUserData(handle, &occluders.objects[object]);
         rtcSetGeometryBoundsFunction(handle, exactBounds, nullptr);
         rtcSetGeometryIntersectFunction(handle, exactIntersect);
         rtcSetGeometryOccludedFunction(handle, exactOccluded);
@@ -202,8 +173,9 @@ struct RayScene::Impl {
     }
 };
 
-RayScene::RayScene(const scene::Scene& scene, const base::Executor& executor)
-    : impl_(std::make_unique<Impl>()) {
+RayScene::RayScene(const scene::Scene& scene, const base::Executor& executor, RayEngine engine,
+                   TreeBuilder builder)
+    : impl_(std::make_unique<Impl>(scene)) {
     // One instruction set on every machine that has it, so that rays that graze an edge agree bit for bit.
     impl_->device = rtcNewDevice(__builtin_cpu_supports("avx2") ? "isa=avx2" : "isa=sse2");
     FLUXWALK_CHECK(impl_->device != nullptr);
@@ -211,31 +183,27 @@ RayScene::RayScene(const scene::Scene& scene, const base::Executor& executor)
     rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_HIGH);
     lift_ = std::max(kLift * scene.bounds().diagonal(), 1e-12);
-    impl_->geometries.resize(scene.objects.size());
     for (unsigned i = 0; i < scene.objects.size(); ++i) {
-        const scene::Object& object = scene.objects[i];
-        const scene::Material& material = scene.materials[object.material];
-        if (object.surface->patchCount() == 0 || !blocksLight(material)) {
+        const Occluder& occluder = impl_->occluders.objects[i];
+        if (occluder.surface == nullptr) {
             continue;
         }
-        const surface::TriangleView view = object.surface->triangles();
-        Geometry& geometry = impl_->geometries[i];
-        geometry = {object.surface.get(), view.patches, nullptr, nullptr};
-        if (material.alphaMode == scene::AlphaMode::mask && material.reflectanceTexture.isSet()) {
-            if (!impl_->textures) {
-                impl_->textures.emplace(scene);
-            }
-            geometry.cutOut = &material;
-            geometry.textures = &*impl_->textures;
-        }
-        if (view.triangles.empty()) {
+        if (occluder.patches.empty()) {
             impl_->addExact(i);
         } else {
-            impl_->addTriangles(view, i);
+            impl_->addTriangles(occluder.surface->triangles(), i);
         }
     }
     executor.within([this] { rtcCommitScene(impl_->scene); });
     FLUXWALK_CHECK_EQ(static_cast<int>(rtcGetDeviceError(impl_->device)), static_cast<int>(RTC_ERROR_NONE));
+    if (engine == RayEngine::clusters) {
+        impl_->treeRays.emplace(std::make_shared<PatchTree>(scene, builder, executor), impl_->occluders,
+                                executor);
+    }
+}
+
+std::shared_ptr<const PatchTree> RayScene::patchTree() const {
+    return impl_->treeRays ? impl_->treeRays->patches() : nullptr;
 }
 
 RayScene::~RayScene() = default;
@@ -265,7 +233,7 @@ std::optional<Hit> RayScene::closest(const Ray& ray) const {
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return std::nullopt;
     }
-    const std::span<const std::uint32_t> patches = impl_->geometries[query.hit.geomID].patches;
+    const std::span<const std::uint32_t> patches = impl_->occluders.objects[query.hit.geomID].patches;
     const float facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y +
                          query.hit.Ng_z * query.ray.dir_z;
     return Hit{query.ray.tfar, base::ObjectId{query.hit.geomID},
@@ -276,6 +244,9 @@ bool RayScene::isOccluded(const Ray& ray) const {
     if (!isSafe(ray)) {
         return true;
     }
+    if (impl_->treeRays) {
+        return impl_->treeRays->isOccluded(ray);
+    }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay r = toEmbree(ray);
@@ -285,6 +256,12 @@ bool RayScene::isOccluded(const Ray& ray) const {
 
 void RayScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
     FLUXWALK_CHECK_EQ(rays.size(), blocked.size());
+    if (impl_->treeRays) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            blocked[i] = isOccluded(rays[i]) ? 1 : 0;
+        }
+        return;
+    }
     std::array<RTCRay, kBundle> bundle;
     for (std::size_t first = 0; first < rays.size(); first += kBundle) {
         const std::size_t count = std::min(kBundle, rays.size() - first);

@@ -7,22 +7,16 @@
 
 #include "core/base/ids.h"
 #include "core/base/parallel.h"
+#include "core/rays/patch_tree.h"
+#include "core/rays/ray.h"
 #include "core/scene/scene.h"
 
-/// Rays against the original objects, through Embree (only here).
+/// Rays against the original objects, through Embree or the tree over the patches.
 namespace fluxwalk::rays {
 
 using base::Vec2d;
 using base::Vec3;
 using base::Vec3d;
-
-/// Part of a line: origin + t * direction for t in (tNear, tFar). The direction need not have unit length.
-struct Ray {
-    Vec3 origin{};
-    float tNear = 0.0f;
-    Vec3 direction{};
-    float tFar = 1.0f;
-};
 
 struct Hit {
     float t = 0.0f;
@@ -35,13 +29,25 @@ struct Hit {
 /// and less than a quarter of the thinnest wall worth modelling.
 inline constexpr double kLift = 0x1.0p-16;
 
+/// What answers whether a ray is occluded.
+enum class RayEngine : std::uint8_t {
+    embree,
+    /// The tree over the patches, the same kind as that of the clusters (TreeRays).
+    clusters
+};
+
 class RayScene {
   public:
-    /// Keeps references to the scene's surfaces and images: `scene` must outlive it.
-    RayScene(const scene::Scene& scene, const base::Executor& executor);
+    /// Keeps references to the scene's surfaces and images: `scene` must outlive it. Nearest hits are
+    /// Embree's with either engine; `builder` is for RayEngine::clusters.
+    RayScene(const scene::Scene& scene, const base::Executor& executor, RayEngine engine = RayEngine::embree,
+             TreeBuilder builder = TreeBuilder::sah);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
+
+    /// The tree that answers, for others to share; nullptr with RayEngine::embree.
+    std::shared_ptr<const PatchTree> patchTree() const;
 
     /// Lift in metres for this scene.
     double lift() const { return lift_; }

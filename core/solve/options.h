@@ -2,11 +2,14 @@
 
 #include <cstdint>
 
+#include "core/rays/ray_scene.h"
 #include "core/transport/oracle.h"
 
 /// What the user may turn. Every value has a unit and a default; cli and viewer show the same table.
 namespace fluxwalk::solve {
 
+using rays::RayEngine;
+using rays::TreeBuilder;
 using transport::OracleKind;
 
 /// Where the requested error is to hold.
@@ -46,6 +49,10 @@ struct Options {
     /// Displayed triangles of curved surfaces are refined until normals within an element's part lie within
     /// this angle of a common axis, in degrees. Costs no transport.
     double displayAngle = 4.0;
+    /// How clusters, and trees for shafts and RayEngine::clusters, are built. Fixed when a solver is made.
+    TreeBuilder clusters = TreeBuilder::sah;
+    /// What answers rays of visibility. Fixed when a solver is made.
+    RayEngine rays = RayEngine::embree;
     std::uint64_t seed = 1;
     /// Seconds after which the solver stops with what it has; 0 for none.
     double timeLimit = 0.0;

@@ -96,6 +96,28 @@ std::vector<OptionInfo> makeTable() {
          .get = [](const Options& o) { return o.displayAngle; },
          .set = [](Options& o, double value) { o.displayAngle = value; }});
     table.push_back(
+        {.name = "clusters",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 2.0,
+         .choices = {"sah", "hybrid", "embree"},
+         .explanation =
+             "How the hierarchy above the patches is built: 'sah' weighs surface, number and the spread of "
+             "normals; 'hybrid' surface and number, with regular grids where a region is evenly filled; "
+             "'embree' takes Embree's tree over boxes.",
+         .get = [](const Options& o) { return static_cast<double>(o.clusters); },
+         .set = [](Options& o, double value) { o.clusters = static_cast<TreeBuilder>(value); }});
+    table.push_back({.name = "rays",
+                     .kind = OptionKind::choice,
+                     .minimum = 0.0,
+                     .maximum = 1.0,
+                     .choices = {"embree", "clusters"},
+                     .explanation =
+                         "What answers rays of visibility: Embree, or the same kind of tree as the clusters. "
+                         "Both meet the original objects; Embree is faster.",
+                     .get = [](const Options& o) { return static_cast<double>(o.rays); },
+                     .set = [](Options& o, double value) { o.rays = static_cast<RayEngine>(value); }});
+    table.push_back(
         {.name = "seed",
          .kind = OptionKind::integer,
          .minimum = 0.0,

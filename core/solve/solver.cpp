@@ -132,9 +132,11 @@ class Run {
     bool isStopped() {
         if (callbacks_.newOptions) {
             if (const auto changed = callbacks_.newOptions()) {
-                const std::uint64_t seed = problem_.options.seed;
+                const Options built = problem_.options;
                 problem_.options = *changed;
-                problem_.options.seed = seed;
+                problem_.options.seed = built.seed;
+                problem_.options.clusters = built.clusters;
+                problem_.options.rays = built.rays;
             }
         }
         wasStopped_ = wasStopped_ || (callbacks_.shouldStop && callbacks_.shouldStop());

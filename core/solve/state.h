@@ -22,8 +22,8 @@ struct Problem {
         : scene(std::move(what)),
           options(chosen),
           executor(threads),
-          rays(*scene, executor),
-          hierarchy(*scene, rays, executor, chosen.seed) {}
+          rays(*scene, executor, chosen.rays, chosen.clusters),
+          hierarchy(*scene, rays, executor, chosen.seed, chosen.clusters) {}
 
     std::shared_ptr<const scene::Scene> scene;
     Options options;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/rays/tree_builder.h"
+
 namespace fluxwalk::bench {
 
 namespace {
@@ -40,7 +42,7 @@ rays::SpatialTree makeTree(const scene::LitMesh& mesh, const base::Executor& exe
             boxes[t].extend(p);
         }
     }
-    return rays::SpatialTree(boxes, executor);
+    return rays::buildTree(rays::TreeBuilder::sah, {boxes}, executor);
 }
 
 }  // namespace
