@@ -174,11 +174,11 @@ unsigned Detail::grow(unsigned base, double power, unsigned most) const {
 
 Plan planStoreys(unsigned rooms) {
     // About as long as high, the last storey as full as possible.
-    const double ideal = 0.7 * std::sqrt(static_cast<double>(rooms));
+    const double ideal = 1.0 + 0.7 * std::sqrt(static_cast<double>(rooms));
     const auto storeysFor = [rooms](unsigned bays) { return (rooms + 2 * bays - 2) / (2 * bays - 1); };
-    unsigned best = 1;
+    const auto least = static_cast<unsigned>(rooms == 1 ? 1.0 : std::round(0.85 * ideal));
+    unsigned best = least;
     double bestPart = -1.0;
-    const auto least = static_cast<unsigned>(std::max(1.0, std::floor(0.85 * ideal)));
     for (unsigned bays = least; bays <= std::max(least, static_cast<unsigned>(1.3 * ideal) + 1); ++bays) {
         const double part = rooms / static_cast<double>(storeysFor(bays) * (2 * bays - 1));
         if (part > bestPart) {

@@ -47,7 +47,8 @@ void SolidMaker::addQuad(const Vec3d& a, const Vec3d& b, const Vec3d& c, const V
 }
 
 void SolidMaker::addSloping(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-    ++patchCount_;
+    const auto rounded = [this](const Vec3d& p) { return Vec3d(base::Vec3(placement_.at(p))); };
+    patchCount_ += surface::isCoplanar(rounded(a), rounded(b), rounded(c), rounded(d)) ? 0u : 1u;
     addQuad(a, b, c, d);
 }
 

@@ -70,11 +70,11 @@ class SolidMaker {
     void placeTorus(std::string_view name, std::uint32_t material, const Vec3d& center, double majorRadius,
                     double minorRadius);
 
-    /// Patches of everything so far; sloping quads count as two triangles, as rounding to float makes most of
-    /// them.
+    /// Patches of everything so far.
     std::size_t patchCount() const { return patchCount_; }
 
   private:
+    // Of a body turned or rounded: rounding to float may bend it into two triangles.
     void addSloping(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
     // Horizontal convex cap over points of one height, counter-clockwise as seen from above.
     void addCap(std::span<const Vec3d> rim, bool isTop);
