@@ -19,7 +19,7 @@ constexpr unsigned kFewestPolygons = 10'000;
 constexpr unsigned kMostPolygons = 2'000'000;
 /// Polygons for each room, its part of corridor and stairs included, that the coarsest furniture takes at
 /// most.
-constexpr unsigned kFewestPerRoom = 1250;
+constexpr unsigned kFewestPerRoom = 1150;
 
 unsigned parseCount(std::string_view name, std::string_view text, std::string_view what, unsigned least,
                     unsigned most) {

@@ -53,16 +53,20 @@ void addWalls(Workshop& w, const Placement& at, const Cell& cell, double bottom,
         Vec2d from(line.innerFrom, line.outerFrom);
         for (const Opening& opening : cell.openings[side]) {
             addPiece(from, Vec2d(opening.from), bottom, top);
+            from = Vec2d(opening.to);
+        }
+        addPiece(from, {line.innerTo, line.outerTo}, bottom, top);
+        w.solids.finish("wall", cell.walls);
+        // Apart from those beside, with which they share edges.
+        for (const Opening& opening : cell.openings[side]) {
             if (opening.bottom > bottom) {
                 addPiece(Vec2d(opening.from), Vec2d(opening.to), bottom, opening.bottom);
             }
             if (opening.top < top) {
                 addPiece(Vec2d(opening.from), Vec2d(opening.to), opening.top, top);
             }
-            from = Vec2d(opening.to);
         }
-        addPiece(from, {line.innerTo, line.outerTo}, bottom, top);
-        w.solids.finish("wall", cell.walls);
+        w.solids.finish("wall above or below an opening", cell.walls);
     }
 }
 

@@ -179,7 +179,7 @@ TEST(Building, isLitIndirectlyForAGoodPart) {
         sides.push_back({i, false});
     }
     // Half of the area is hidden between solids: more sensors than the 1,000 that light reaches.
-    const auto sensors = reference::randomSensors(building, sides, 2400, reference::kBenchmarkSeed);
+    const auto sensors = reference::randomSensors(building, sides, 3200, reference::kBenchmarkSeed);
     const auto all = reference::traceIrradiance(building, rays, executor, sensors, {3, 512});
     const auto direct = reference::traceIrradiance(black, blackRays, executor, sensors, {4, 512});
     double sum = 0.0;
