@@ -7,6 +7,9 @@ namespace fluxwalk::scene::building {
 
 namespace {
 
+/// Set-back of rails between posts in metres.
+constexpr double kStep = 0.004;
+
 /// One of the four walls: the lines of its inner and outer face, and how it runs along them.
 struct WallLine {
     bool isAcross = false;  ///< runs along z
@@ -106,8 +109,9 @@ void addDoor(Workshop& w, const Placement& at, double degrees, std::uint32_t woo
     w.solids.setPlacement(at);
     w.solids.addBox({kDoorFrom, 0.0, kCorridorFace}, {kDoorFrom + kJamb, kDoorHeight, 0.0});
     w.solids.addBox({kDoorTo - kJamb, 0.0, kCorridorFace}, {kDoorTo, kDoorHeight, 0.0});
-    w.solids.addBox({kDoorFrom + kJamb, head, kCorridorFace}, {kDoorTo - kJamb, kDoorHeight, 0.0});
-    w.solids.addBox({kDoorFrom + kJamb, 0.0, kCorridorFace}, {kDoorTo - kJamb, kSill, 0.0});
+    // Behind the jambs' edges: no two solids of a mesh share a whole edge, so that each has two faces.
+    w.solids.addBox({kDoorFrom + kJamb, head, kCorridorFace + kStep}, {kDoorTo - kJamb, kDoorHeight, -kStep});
+    w.solids.addBox({kDoorFrom + kJamb, 0.0, kCorridorFace + kStep}, {kDoorTo - kJamb, kSill, -kStep});
     w.solids.finish("door frame", wood);
 
     // Closed, the leaf fills its frame flush with the room's face; open, it is turned about that face's edge.
@@ -149,8 +153,9 @@ void addWindow(Workshop& w, const Placement& at, const Opening& o) {
     w.solids.setPlacement(at);
     w.solids.addBox({o.from, o.bottom, near}, {o.from + kFrame, o.top, far});
     w.solids.addBox({o.to - kFrame, o.bottom, near}, {o.to, o.top, far});
-    w.solids.addBox({o.from + kFrame, o.bottom, near}, {o.to - kFrame, o.bottom + kFrame, far});
-    w.solids.addBox({o.from + kFrame, o.top - kFrame, near}, {o.to - kFrame, o.top, far});
+    w.solids.addBox({o.from + kFrame, o.bottom, near + kStep},
+                    {o.to - kFrame, o.bottom + kFrame, far - kStep});
+    w.solids.addBox({o.from + kFrame, o.top - kFrame, near + kStep}, {o.to - kFrame, o.top, far - kStep});
     const unsigned fields = std::max(2u, static_cast<unsigned>((o.to - o.from) / 0.9));
     const double pitch = (o.to - o.from - 2.0 * kFrame) / fields;
     for (unsigned i = 1; i < fields; ++i) {

@@ -180,8 +180,8 @@ void addPicture(Workshop& w, const Placement& at, double width, double height, s
     w.solids.setPlacement(at);
     w.solids.addBox({-x, -y, 0.0}, {-x + kFrame, y, 0.03});
     w.solids.addBox({x - kFrame, -y, 0.0}, {x, y, 0.03});
-    w.solids.addBox({-x + kFrame, -y, 0.0}, {x - kFrame, -y + kFrame, 0.03});
-    w.solids.addBox({-x + kFrame, y - kFrame, 0.0}, {x - kFrame, y, 0.03});
+    w.solids.addBox({-x + kFrame, -y, 0.0}, {x - kFrame, -y + kFrame, 0.026});
+    w.solids.addBox({-x + kFrame, y - kFrame, 0.0}, {x - kFrame, y, 0.026});
     w.solids.finish("picture frame", w.palette.black);
     w.solids.addBox({-x + kFrame, -y + kFrame, 0.0}, {x - kFrame, y - kFrame, 0.02});
     w.solids.finish("picture", colour);
