@@ -137,7 +137,9 @@ Blueprint drawBlueprint(const Hierarchy& h, std::span<const base::Box> boxes,
         std::vector<std::array<bool, 2>> sides;
         for (std::uint32_t item = 0; item < h.shaftItems().size(); ++item) {
             const std::uint32_t object = h.shaftItems()[item].object;
-            const std::array<bool, 2> reached = h.reached().sides[object];
+            const std::uint32_t patch = h.shaftItems()[item].patch;
+            const std::array<bool, 2> reached{h.reached().isReached(object, patch, false),
+                                              h.reached().isReached(object, patch, true)};
             if ((reached[0] || reached[1]) && isLuminaire(scene, object) == luminaires) {
                 chosen.push_back(boxes[item]);
                 items.push_back(item);
