@@ -50,7 +50,8 @@ bool isBuried(const rays::RayScene& rays, const ReachedSides& reached, const sur
         const Vec3d direction =
             normal + kTilt * Vec3d(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5);
         const auto hit = rays.closest(rays.halfLine(p.position, normal, direction));
-        if (!hit || reached.isReached(base::index(hit->object), hit->back)) {
+        const bool isDark = hit ? !reached.isReached(base::index(hit->object), hit->back) : !reached.isOpen;
+        if (!isDark) {
             return false;
         }
     }
