@@ -20,7 +20,9 @@ constexpr std::size_t kMostPoints = 512;
 constexpr double kAreaPerPoint = 0.01;
 /// Distance of the outermost points from the corners and edges, in parts of the patch.
 constexpr double kMargin = 0.01;
+/// Of a ray against the normal, and how many surfaces a walk meets until it counts as lit.
 constexpr double kTilt = 0.5;
+constexpr unsigned kMostHops = 3;
 
 // Points of the unit square: near corners and middles of edges first, then spread evenly.
 Vec2d pointAt(std::size_t i, const Vec2d& shift) {
@@ -34,8 +36,33 @@ Vec2d pointAt(std::size_t i, const Vec2d& shift) {
     return base::r2Point(i - kRim, shift);
 }
 
-bool isBuried(const rays::RayScene& rays, const ReachedSides& reached, const surface::Surface& surface,
-              std::uint32_t patch, bool back, std::uint64_t key) {
+// Whether a walk from a point on a surface comes to a side that light does not reach, or leaves a scene that
+// no light leaves: then all of its way is dark. Where two solids touch, a ray inside of one may report the
+// other's face, which is reached elsewhere; so the walk goes on from there.
+bool isDark(const scene::Scene& scene, const rays::RayScene& rays, const ReachedSides& reached,
+            Vec3d position, Vec3d normal, base::RandomStream& random) {
+    for (unsigned hop = 0; hop < kMostHops; ++hop) {
+        // Tilted at random, so that no ray runs along an edge of what it is to meet.
+        const Vec3d direction =
+            normal + kTilt * Vec3d(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5);
+        const auto hit = rays.closest(rays.halfLine(position, normal, direction));
+        if (!hit) {
+            return !reached.isOpen;
+        }
+        if (!reached.isReached(base::index(hit->object), hit->back)) {
+            return true;
+        }
+        const surface::Surface& surface = *scene.objects[base::index(hit->object)].surface;
+        const Vec3d met = position + static_cast<double>(hit->t) * direction;
+        const surface::SurfacePoint p = surface.evaluate(hit->patch, surface.locate(hit->patch, met));
+        position = p.position;
+        normal = hit->back ? -p.normal : p.normal;
+    }
+    return false;
+}
+
+bool isBuried(const scene::Scene& scene, const rays::RayScene& rays, const ReachedSides& reached,
+              const surface::Surface& surface, std::uint32_t patch, bool back, std::uint64_t key) {
     const surface::Region whole = surface::wholePatch(surface.domain(patch));
     const auto count = static_cast<std::size_t>(std::clamp(surface.area(patch, whole) / kAreaPerPoint,
                                                            static_cast<double>(kFewestPoints),
@@ -45,13 +72,7 @@ bool isBuried(const rays::RayScene& rays, const ReachedSides& reached, const sur
     for (std::size_t i = 0; i < count; ++i) {
         const surface::SurfacePoint p =
             surface.evaluate(patch, surface::mapToRegion(whole, pointAt(i, shift)).uv);
-        const Vec3d normal = back ? -p.normal : p.normal;
-        // Tilted at random, so that no ray runs along an edge of what it is to meet.
-        const Vec3d direction =
-            normal + kTilt * Vec3d(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5);
-        const auto hit = rays.closest(rays.halfLine(p.position, normal, direction));
-        const bool isDark = hit ? !reached.isReached(base::index(hit->object), hit->back) : !reached.isOpen;
-        if (!isDark) {
+        if (!isDark(scene, rays, reached, p.position, back ? -p.normal : p.normal, random)) {
             return false;
         }
     }
@@ -71,7 +92,7 @@ std::vector<std::uint8_t> findBuriedPatches(const scene::Scene& scene, const ray
                 const std::size_t item = reached.firstPatch[o] + patch;
                 for (const bool back : {false, true}) {
                     if (reached.isReached(static_cast<std::uint32_t>(o), back) &&
-                        isBuried(rays, reached, surface, patch, back,
+                        isBuried(scene, rays, reached, surface, patch, back,
                                  base::combine(seed, 2 * item + (back ? 1 : 0)))) {
                         buried[item] |= back ? 2 : 1;
                     }

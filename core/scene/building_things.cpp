@@ -12,7 +12,8 @@ unsigned segmentsOf(const Workshop& w) {
     return 2 * w.detail.grow(3, 0.5);
 }
 
-// Rings of a vessel's wall: outside along `radius` of the height, back inside of it.
+// Rings of a vessel's wall: outside along `radius` of the height, back inside of it. The inside follows the
+// outside as it is drawn, so that coarse rings do not pierce it.
 template <class Radius>
 std::vector<LatheRing> vesselRings(const Workshop& w, double height, double thickness, Radius radius) {
     const unsigned rings = w.detail.grow(1, 0.5);
@@ -21,10 +22,13 @@ std::vector<LatheRing> vesselRings(const Workshop& w, double height, double thic
         const double t = static_cast<double>(i) / rings;
         profile.push_back({radius(t), height * t});
     }
-    const double inner = thickness / height;
+    const double bottom = thickness / height;
     for (unsigned i = 0; i <= rings; ++i) {
-        const double t = 1.0 - (1.0 - inner) * i / rings;
-        profile.push_back({radius(t) - thickness, height * t});
+        const double t = 1.0 - (1.0 - bottom) * i / rings;
+        const auto below = std::min(static_cast<unsigned>(t * rings), rings - 1);
+        const double part = t * rings - below;
+        const double outside = (1.0 - part) * profile[below].radius + part * profile[below + 1].radius;
+        profile.push_back({outside - thickness, height * t});
     }
     return profile;
 }
