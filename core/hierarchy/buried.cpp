@@ -20,9 +20,12 @@ constexpr std::size_t kMostPoints = 512;
 constexpr double kAreaPerPoint = 0.01;
 /// Distance of the outermost points from the corners and edges, in parts of the patch.
 constexpr double kMargin = 0.01;
-/// Of a ray against the normal, and how many surfaces a walk meets until it counts as lit.
-constexpr double kTilt = 0.5;
-constexpr unsigned kMostHops = 3;
+/// Of a ray against the normal.
+constexpr double kTilt = 1.6;
+/// Surfaces that a walk meets until it counts as lit: from a patch's first point, which most lit patches need
+/// alone, and from the others, which must not miss the dark where solids touch on all sides.
+constexpr unsigned kFirstHops = 4;
+constexpr unsigned kMoreHops = 24;
 
 // Points of the unit square: near corners and middles of edges first, then spread evenly.
 Vec2d pointAt(std::size_t i, const Vec2d& shift) {
@@ -40,8 +43,8 @@ Vec2d pointAt(std::size_t i, const Vec2d& shift) {
 // no light leaves: then all of its way is dark. Where two solids touch, a ray inside of one may report the
 // other's face, which is reached elsewhere; so the walk goes on from there.
 bool isDark(const scene::Scene& scene, const rays::RayScene& rays, const ReachedSides& reached,
-            Vec3d position, Vec3d normal, base::RandomStream& random) {
-    for (unsigned hop = 0; hop < kMostHops; ++hop) {
+            Vec3d position, Vec3d normal, unsigned hops, base::RandomStream& random) {
+    for (unsigned hop = 0; hop < hops; ++hop) {
         // Tilted at random, so that no ray runs along an edge of what it is to meet.
         const Vec3d direction =
             normal + kTilt * Vec3d(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5);
@@ -72,7 +75,8 @@ bool isBuried(const scene::Scene& scene, const rays::RayScene& rays, const Reach
     for (std::size_t i = 0; i < count; ++i) {
         const surface::SurfacePoint p =
             surface.evaluate(patch, surface::mapToRegion(whole, pointAt(i, shift)).uv);
-        if (!isDark(scene, rays, reached, p.position, back ? -p.normal : p.normal, random)) {
+        if (!isDark(scene, rays, reached, p.position, back ? -p.normal : p.normal,
+                    i == 0 ? kFirstHops : kMoreHops, random)) {
             return false;
         }
     }

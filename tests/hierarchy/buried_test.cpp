@@ -68,7 +68,11 @@ TEST(Buried, aGapOfAFewCentimetresCounts) {
         Scene one = scene;
         addPolygons(one, "pedestal", 0, boxFaces({1 + over, 0, 1}, {2, 0.5, 2}));
         addPolygons(one, "box", 0, boxFaces({1, 0.5, 1}, {2, 1.0, 2}));
-        EXPECT_EQ(reach(one).isReached(3, 2, false), over > 0.0);
+        const ReachedSides reached = reach(one);
+        EXPECT_FALSE(reached.isReached(2, true));
+        EXPECT_FALSE(reached.isReached(3, true));
+        EXPECT_EQ(reached.isReached(3, 2, false), over > 0.0);
+        EXPECT_FALSE(reached.isOpen);
     }
 }
 
