@@ -7,7 +7,7 @@ namespace fluxwalk::scene::building {
 
 namespace {
 
-/// Set-back of rails between posts in metres.
+/// Set-back of what stands between posts, in metres.
 constexpr double kStep = 0.004;
 
 /// One of the four walls: the lines of its inner and outer face, and how it runs along them.
@@ -109,9 +109,9 @@ void addDoor(Workshop& w, const Placement& at, double degrees, std::uint32_t woo
     w.solids.setPlacement(at);
     w.solids.addBox({kDoorFrom, 0.0, kCorridorFace}, {kDoorFrom + kJamb, kDoorHeight, 0.0});
     w.solids.addBox({kDoorTo - kJamb, 0.0, kCorridorFace}, {kDoorTo, kDoorHeight, 0.0});
-    // Behind the jambs' edges: no two solids of a mesh share a whole edge, so that each has two faces.
+    // Beside the jambs' edges: no two solids of a mesh share a whole edge, so that each has two faces.
     w.solids.addBox({kDoorFrom + kJamb, head, kCorridorFace + kStep}, {kDoorTo - kJamb, kDoorHeight, -kStep});
-    w.solids.addBox({kDoorFrom + kJamb, 0.0, kCorridorFace + kStep}, {kDoorTo - kJamb, kSill, -kStep});
+    w.solids.addBox({kDoorFrom + kJamb, 0.0, kCorridorFace - kStep}, {kDoorTo - kJamb, kSill, kStep});
     w.solids.finish("door frame", wood);
 
     // Closed, the leaf fills its frame flush with the room's face; open, it is turned about that face's edge.

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/random.h"
 #include "core/hierarchy/closed_mesh.h"
+#include "core/reference/path_tracer.h"
 #include "core/scene/builders.h"
 #include "core/scene/polygons.h"
+#include "core/surface/region.h"
 #include "core/surface/sphere.h"
 
 namespace fluxwalk {
@@ -73,6 +76,37 @@ TEST(Buried, aGapOfAFewCentimetresCounts) {
         EXPECT_FALSE(reached.isReached(3, true));
         EXPECT_EQ(reached.isReached(3, 2, false), over > 0.0);
         EXPECT_FALSE(reached.isOpen);
+    }
+}
+
+// Points of all patches that were dropped, by the path tracer.
+TEST(Buried, nothingThatIsLitIsDropped) {
+    const Scene scene = scene::buildBuilding("building:10000");
+    const Executor executor(2);
+    const rays::RayScene rays(scene, executor);
+    const ReachedSides reached = hierarchy::findReachedSides(scene, rays, executor, 1);
+    std::vector<scene::Sensor> sensors;
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+        const surface::Surface& surface = *scene.objects[o].surface;
+        for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
+            for (const bool back : {false, true}) {
+                if (!reached.isReached(o, back) || reached.isReached(o, patch, back)) {
+                    continue;
+                }
+                base::RandomStream random(base::combine(o, 2 * patch + (back ? 1 : 0)));
+                for (unsigned i = 0; i < 4; ++i) {
+                    const auto whole = surface::wholePatch(surface.domain(patch));
+                    const auto p = surface.evaluate(patch, mapToRegion(whole, random.next2()).uv);
+                    sensors.push_back({p.position, back ? -p.normal : p.normal});
+                }
+            }
+        }
+    }
+    EXPECT_GT(sensors.size(), 4u * 2000u);
+    const auto traced = reference::traceIrradiance(scene, rays, executor, sensors, {5, 16});
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        const Vec3d& at = sensors[i].position;
+        EXPECT_EQ(traced.irradiance[i].mean, Vec3d(0.0)) << at.x << " " << at.y << " " << at.z;
     }
 }
 
