@@ -63,7 +63,7 @@ bool isBuilding(std::string_view name);
 /// "building:N" it has as many rooms of the coarsest furniture as that takes; as "building:N:R" it has R rooms
 /// (at most N / 1150), the first R of a larger building with the same plan, and furniture as fine as that
 /// takes. Rooms lie on both sides of a corridor with stairs at its beginning; every room has a door that
-/// stands open or is closed, a window with dark panes, furniture and lamps of 950 to 5,250 lm. Closed; every
+/// stands open or is closed, a window with dark panes, furniture and lamps of 2,850 to 5,750 lm. Closed; every
 /// mesh is closed, save that a lamp's panel closes the housing before it. Throws base::UsageError where the
 /// numbers are out of range.
 Scene buildBuilding(std::string_view name);

@@ -57,7 +57,7 @@ struct Palette {
 };
 Palette addPalette(Scene& scene);
 
-/// Light of the lamps in lm; a room has 1,900 to 5,000 in all.
+/// Light of the lamps in lm; a room has 2,850 to 5,750 in all.
 inline constexpr double kPanelLumens = 2400.0;
 inline constexpr double kBulbLumens = 950.0;
 inline constexpr double kGlobeLumens = 2600.0;
