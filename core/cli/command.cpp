@@ -47,7 +47,7 @@ std::vector<std::string> namesOf(const std::vector<Command>& commands) {
 bool isNoScene(const std::string& word) {
     std::error_code ignored;
     return word.find_first_of("./\\") == std::string::npos && !std::filesystem::exists(word, ignored) &&
-           !scene::buildScene(word);
+           !scene::isBuiltInScene(word);
 }
 
 /// Puts the default command's name in front unless a command is named. The first word counts, or the first

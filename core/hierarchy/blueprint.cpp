@@ -89,8 +89,9 @@ struct ReachedPatches {
     ReachedPatches(const scene::Scene& scene, const ReachedSides& sidesOf, const rays::PatchTree& patches,
                    bool luminaires, const base::Executor& executor) {
         for (std::uint32_t item = 0; item < patches.items.size(); ++item) {
-            const std::uint32_t object = patches.items[item].object;
-            const std::array<bool, 2> reached = sidesOf.sides[object];
+            const auto [object, patch] = patches.items[item];
+            const std::array<bool, 2> reached{sidesOf.isReached(object, patch, false),
+                                              sidesOf.isReached(object, patch, true)};
             if ((reached[0] || reached[1]) && isLuminaire(scene, object) == luminaires) {
                 boxes.push_back(patches.boxes[item]);
                 items.push_back(item);

@@ -5,6 +5,10 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/buried.h"
+#include "core/hierarchy/closed_mesh.h"
+#include "core/rays/spatial_tree.h"
+#include "core/rays/tree_builder.h"
 #include "core/surface/region.h"
 
 namespace fluxwalk::hierarchy {
@@ -18,6 +22,8 @@ namespace {
 /// backwards.
 constexpr unsigned kForwardWalks = 512;
 constexpr unsigned kBackwardWalks = 128;
+/// Walks inside of a closed mesh that holds no emitter.
+constexpr unsigned kInsideWalks = 4;
 /// Light of the sun, which has no place to start from, is followed this often from every side it is found on.
 constexpr unsigned kOnwardWalks = 8;
 constexpr unsigned kMaxBounces = 16;
@@ -152,10 +158,10 @@ void follow(const Explorer& explorer, Stand at, Vec3d direction, base::RandomStr
 
 // Whether light can come to a side: walks backwards until one sees an emitter.
 bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t object, bool back,
-           std::uint64_t key, Found& found) {
+           unsigned walks, std::uint64_t key, Found& found) {
     base::RandomStream random(key);
-    for (unsigned walk = 0; walk < kBackwardWalks; ++walk) {
-        Stand at = explorer.stand(object, back, walk, kBackwardWalks, random);
+    for (unsigned walk = 0; walk < walks; ++walk) {
+        Stand at = explorer.stand(object, back, walk, walks, random);
         for (unsigned bounce = 0; bounce < kMaxBounces; ++bounce) {
             if (explorer.seesEmitter(at, random)) {
                 for (unsigned onward = 0; onward < kOnwardWalks && !found.escaped; ++onward) {
@@ -179,6 +185,51 @@ bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t ob
     }
     return false;
 }
+
+/// Where light begins, to be looked up by place.
+class EmitterPlaces {
+  public:
+    EmitterPlaces(const scene::Scene& scene, const Explorer& explorer, const base::Executor& executor) {
+        std::vector<base::Box> boxes;
+        for (const std::uint32_t object : explorer.emitters()) {
+            boxes.push_back(scene.objects[object].surface->bounds());
+        }
+        for (const scene::Light& light : scene.lights) {
+            if (light.kind != scene::LightKind::directional) {
+                boxes.push_back({light.position, light.position});
+            }
+        }
+        if (!boxes.empty()) {
+            tree_ = rays::buildTree(rays::TreeBuilder::sah, {boxes}, executor);
+        }
+    }
+
+    bool reachInto(const base::Box& box) const {
+        const base::Vec3 lower(box.lower);
+        const base::Vec3 upper(box.upper);
+        std::vector<std::uint32_t> stack;
+        if (!tree_.nodes().empty()) {
+            stack.push_back(0);
+        }
+        while (!stack.empty()) {
+            const std::uint32_t at = stack.back();
+            stack.pop_back();
+            const rays::SpatialTree::Node& node = tree_.nodes()[at];
+            if (glm::any(glm::greaterThan(node.lower, upper)) || glm::any(glm::lessThan(node.upper, lower))) {
+                continue;
+            }
+            if (node.isLeaf()) {
+                return true;
+            }
+            stack.push_back(node.right);
+            stack.push_back(at + 1);
+        }
+        return false;
+    }
+
+  private:
+    rays::SpatialTree tree_;
+};
 
 }  // namespace
 
@@ -223,6 +274,7 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
             result.sides[side / 2][side % 2] = true;
         }
     }
+    const EmitterPlaces places(scene, explorer, executor);
     std::vector<std::uint8_t> lit(sideCount, 0);
     std::vector<Found> backward(sideCount);
     executor.forRange(sideCount, 4, [&](std::size_t begin, std::size_t end) {
@@ -230,8 +282,14 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
             const auto object = static_cast<std::uint32_t>(s / 2);
             const bool back = s % 2 == 1;
             if (scene.objects[object].surface->patchCount() > 0 && !result.sides[object][back ? 1 : 0]) {
+                const surface::Surface& surface = *scene.objects[object].surface;
+                const bool isOpaque =
+                    scene.materials[scene.objects[object].material].alphaMode == scene::AlphaMode::opaque;
+                const bool isInside =
+                    back && isOpaque && !places.reachInto(surface.bounds()) && isClosedOutwards(surface);
                 const bool is = explorer.emits(object, back) ||
-                                isLit(scene, explorer, object, back, base::combine(seed + 1, s), backward[s]);
+                                isLit(scene, explorer, object, back, isInside ? kInsideWalks : kBackwardWalks,
+                                      base::combine(seed + 1, s), backward[s]);
                 lit[s] = is ? 1 : 0;
             }
         }
@@ -240,6 +298,11 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
         result.sides[s / 2][s % 2] = result.sides[s / 2][s % 2] || lit[s] != 0;
         result.isOpen = result.isOpen || backward[s].escaped;
     }
+    result.firstPatch.push_back(0);
+    for (const scene::Object& object : scene.objects) {
+        result.firstPatch.push_back(result.firstPatch.back() + object.surface->patchCount());
+    }
+    result.buried = findBuriedPatches(scene, rays, executor, result, seed + 2);
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "core/scene/builders.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/photometry.h"
@@ -53,6 +54,9 @@ constexpr std::array kScenes{
     BuiltInScene{"lamp-box", "a lamp in a sealed box inside a room: no light may leak out", buildLampBox},
     BuiltInScene{"blobs", "a room with balls that melt into each other: a surface known by its rays alone",
                  buildBlobs},
+    BuiltInScene{"building:10000",
+                 "a furnished house of 10,000 polygons; building:N has N, building:N:R has R rooms only",
+                 [] { return buildBuilding("building:10000"); }},
 };
 
 }  // namespace
@@ -61,7 +65,15 @@ std::span<const BuiltInScene> builtInScenes() {
     return kScenes;
 }
 
+bool isBuiltInScene(std::string_view name) {
+    return isBuilding(name) || std::any_of(kScenes.begin(), kScenes.end(),
+                                           [name](const BuiltInScene& scene) { return scene.name == name; });
+}
+
 std::optional<Scene> buildScene(std::string_view name) {
+    if (isBuilding(name)) {
+        return buildBuilding(name);
+    }
     for (const BuiltInScene& scene : kScenes) {
         if (scene.name == name) {
             return scene.build();

@@ -119,17 +119,10 @@ class Pairing {
             }
             const std::uint32_t d = triangles_[other][(f + 2) % 3];
             quad = {c, a, d, b};
-            return isCoplanar(a, b, c, d) && sameTexcoords(a, oa) && sameTexcoords(b, ob) &&
+            return isCoplanar(at(a), at(b), at(c), at(d)) && sameTexcoords(a, oa) && sameTexcoords(b, ob) &&
                    affineTexcoords(quad);
         }
         return false;
-    }
-
-    bool isCoplanar(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-        const Vec3d n = normalOf(at(a), at(b), at(c));
-        const double longest =
-            std::max({glm::distance(at(a), at(b)), glm::distance(at(a), at(c)), glm::distance(at(a), at(d))});
-        return std::abs(glm::dot(glm::normalize(n), at(d) - at(a))) <= kCoplanar * longest;
     }
 
     bool sameTexcoords(std::uint32_t i, std::uint32_t j) const {
@@ -190,6 +183,12 @@ bool hasArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 }
 
 }  // namespace
+
+bool isCoplanar(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+    const Vec3d n = normalOf(a, b, c);
+    const double longest = std::max({glm::distance(a, b), glm::distance(a, c), glm::distance(a, d)});
+    return std::abs(glm::dot(glm::normalize(n), d - a)) <= kCoplanar * longest;
+}
 
 PolygonMesh::PolygonMesh(TriangleSoup soup)
     : positions_(std::move(soup.positions)), texcoords_(std::move(soup.texcoords)) {

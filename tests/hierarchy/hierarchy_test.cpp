@@ -80,7 +80,7 @@ TEST(Hierarchy, everyReachedSideOfAPatchIsOnePatchNode) {
             for (std::uint32_t p = 0; p < built.scene.objects[o].surface->patchCount(); ++p) {
                 for (const bool back : {false, true}) {
                     const NodeId id = tree.patchNode(o, p, back);
-                    ASSERT_EQ(id != NodeId::none, tree.reached().isReached(o, back));
+                    ASSERT_EQ(id != NodeId::none, tree.reached().isReached(o, p, back));
                     if (id == NodeId::none) {
                         continue;
                     }
