@@ -245,13 +245,18 @@ Normals normalsOf(const ElementHull& hull) {
 }
 
 FactorBounds boundParts(const ElementHull& receiver, const SourcePart& source) {
-    const Vectors v =
-        vectorsBetween(receiver, std::span(source.hull.points.data(), source.hull.pointCount));
+    const Vectors v = vectorsBetween(receiver, std::span(source.hull.points.data(), source.hull.pointCount));
     if (v.shortest <= 0.0) {
         return {};
     }
     const Interval here = boundCosine(normalsOf(receiver), v, 1.0);
+    if (here.upper <= 0.0) {
+        return {0.0, 0.0};
+    }
     const Interval there = boundCosine(normalsOf(source.hull), v, -1.0);
+    if (there.upper <= 0.0) {
+        return {0.0, 0.0};
+    }
     const double r2 = v.shortest * v.shortest;
     // The source's area projected on the directions to it: were these all one, it would be what the vector
     // area says, and what faces away.
@@ -345,7 +350,8 @@ FactorBounds boundPointFactor(const ElementParts& receiver, const ElementParts& 
                 highest = i;
             }
         }
-        const bool canRaise = lowest < ElementParts::kCutReceivers;
+        // A part that sees nothing keeps the bound at 0.
+        const bool canRaise = lowest < ElementParts::kCutReceivers && bounds[lowest].upper > 0.0;
         const bool canReduce = highest < ElementParts::kCutReceivers;
         if (!canRaise && !canReduce) {
             // Areas are stored as float too.

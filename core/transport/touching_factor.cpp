@@ -73,7 +73,8 @@ GaussGrid<side> makeGrid(const hierarchy::Hierarchy& hierarchy, NodeId id) {
             // The square root in a triangle's map is undone, so that the integrand stays smooth.
             const double s = nodeAt<side>(i);
             const SurfaceSample p = sampler.at({isTriangle ? s * s : s, nodeAt<side>(j)});
-            const double weight = kGauss4Weight[i % 4] * kGauss4Weight[j % 4] * p.measure * (isTriangle ? s : 1.0);
+            const double weight =
+                kGauss4Weight[i % 4] * kGauss4Weight[j % 4] * p.measure * (isTriangle ? s : 1.0);
             grid.points[side * j + i] = {p.position, p.normal, weight};
             sum += weight;
         }

@@ -78,9 +78,8 @@ Quality inspect(scene::Scene scene, unsigned levels, int pairsOnEach) {
             const Shape& to = built.tree.shape(b);
             const double distance =
                 static_cast<double>(glm::distance(from.center, to.center) / (from.radius + to.radius));
-            const transport::FactorBounds bounds =
-                transport::boundPointFactor(transport::makeElementParts(built.tree, a),
-                                            transport::makeElementParts(built.tree, b));
+            const transport::FactorBounds bounds = transport::boundPointFactor(
+                transport::makeElementParts(built.tree, a), transport::makeElementParts(built.tree, b));
             const auto isOutside = [&bounds](double factor) {
                 return factor < bounds.lower - kRoundingOfFactor || factor > bounds.upper + kRoundingOfFactor;
             };
