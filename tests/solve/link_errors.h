@@ -16,8 +16,8 @@ struct LinkError {
 
 /// Radiosity of a node at local coordinates, as the solver's linear functions have it.
 inline double radiosityAt(const hierarchy::Light& light, const base::Vec2d& local) {
-    return base::channelMean(light.radiosity) + base::channelMean(light.slopeS) * local.x +
-           base::channelMean(light.slopeT) * local.y;
+    const base::Vec2d slope(base::channelMean(light.slopeS), base::channelMean(light.slopeT));
+    return static_cast<double>(base::channelMean(light.radiosity)) + glm::dot(slope, local);
 }
 
 /// Irradiance that `receiver` gets through the link less what it should get, at side x side of its points,
@@ -33,7 +33,8 @@ inline LinkError measureOneWay(const Problem& problem, const hierarchy::Link& li
     const double area = static_cast<double>(h.shape(receiver).exposedArea());
     const double sourceArea = static_cast<double>(h.shape(source).exposedArea());
     const auto ownFrame = [&h](NodeId id, const base::Vec2d& local) {
-        return h.name(id).back ? hierarchy::mirrorGradient(h.shape(id).cornerCount, base::Vec2(local)) : base::Vec2(local);
+        return h.name(id).back ? hierarchy::mirrorGradient(h.shape(id).cornerCount, base::Vec2(local))
+                               : base::Vec2(local);
     };
     // Gradients and slopes are dual to coordinates: both stand in the region's order.
     const base::Vec2 gradientHere = (isAtA ? link.gradientA : link.gradientB).decode();
@@ -41,8 +42,7 @@ inline LinkError measureOneWay(const Problem& problem, const hierarchy::Link& li
     const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(source).cornerCount);
     const double sent = static_cast<double>(
         base::channelMean(light.radiosity) +
-        frame.product(gradientThere,
-                      {base::channelMean(light.slopeS), base::channelMean(light.slopeT)}));
+        frame.product(gradientThere, {base::channelMean(light.slopeS), base::channelMean(light.slopeT)}));
     const double arriving = static_cast<double>(link.transfer()) * sent / area;
     std::vector<rays::Ray> rays(side * side);
     std::vector<std::uint8_t> blocked(side * side);
@@ -58,8 +58,8 @@ inline LinkError measureOneWay(const Problem& problem, const hierarchy::Link& li
             const transport::SurfaceSample y = onSource.inStratum(j, side, random.next(), random.next());
             const Vec3d d = y.position - x.position;
             const double r2 = std::max(glm::dot(d, d), 1e-12);
-            const double kernel = std::max(0.0, glm::dot(d, x.normal)) * std::max(0.0, -glm::dot(d, y.normal)) /
-                                  (base::kPi * r2 * r2);
+            const double kernel = std::max(0.0, glm::dot(d, x.normal)) *
+                                  std::max(0.0, -glm::dot(d, y.normal)) / (base::kPi * r2 * r2);
             weights[j] = y.measure * kernel * radiosityAt(light, base::Vec2d(ownFrame(source, y.local)));
             all += y.measure;
             rays[j] = problem.rays.segment(x.position, x.normal, y.position, y.normal);
