@@ -281,6 +281,19 @@ class Validator : private JsonChecks {
         });
     }
 
+    // tinygltf drops what is null, so that it would pass for absent.
+    void checkExtras(const json& node, const std::string& place) const {
+        const auto extras = node.find("extras");
+        if (extras == node.end() || !extras->is_object()) {
+            return;
+        }
+        for (const auto& [name, value] : extras->items()) {
+            if (name.starts_with("fluxwalk_") && value.is_null()) {
+                fail(std::string(place).append("/extras/").append(name), "is null");
+            }
+        }
+    }
+
     void checkNodes() const {
         forEach(root(), "nodes", "", [this](const json& node, const std::string& place) {
             checkIndex(node, "mesh", "meshes", place);
@@ -291,6 +304,7 @@ class Validator : private JsonChecks {
             checkNumbers(node, "rotation", 4, place);
             checkNumbers(node, "scale", 3, place);
             checkNumbers(node, "matrix", 16, place);
+            checkExtras(node, place);
         });
         forEach(root(), "scenes", "", [this](const json& scene, const std::string& place) {
             checkIndices(scene, "nodes", "nodes", place);

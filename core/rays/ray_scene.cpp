@@ -210,8 +210,14 @@ RayScene::~RayScene() = default;
 
 Ray RayScene::segment(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& to,
                       const Vec3d& toNormal) const {
-    const Vec3d a = from + lift_ * fromNormal;
-    const Vec3d b = to + lift_ * toNormal;
+    // What float rounds, at the ends and along the way, grows with these lengths only.
+    const auto largest = [](const Vec3d& v) {
+        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    const double reach = largest(from) + largest(to) + largest(to - from);
+    const double lift = std::min(lift_, kLiftOfReach * reach);
+    const Vec3d a = from + lift * fromNormal;
+    const Vec3d b = to + lift * toNormal;
     return {Vec3(a), 0.0f, Vec3(b - a), 1.0f};
 }
 

@@ -29,12 +29,13 @@ std::vector<OptionInfo> makeTable() {
     table.push_back({.name = "oracle",
                      .kind = OptionKind::choice,
                      .minimum = 0.0,
-                     .maximum = 2.0,
-                     .choices = {"bounded", "bfa", "bf"},
+                     .maximum = 3.0,
+                     .choices = {"bounded", "bfa", "bf", "strict"},
                      .explanation =
                          "What decides that a link is fine enough: 'bounded' weighs the spread of kernel, "
                          "visibility and radiosity by power; 'bfa' the transferred power; 'bf' the "
-                         "transferred illuminance.",
+                         "transferred illuminance; 'strict' takes certain bounds of kernel, visibility and "
+                         "radiosity instead of samples: many times the work.",
                      .get = [](const Options& o) { return static_cast<double>(o.oracle); },
                      .set = [](Options& o, double value) { o.oracle = static_cast<OracleKind>(value); }});
     table.push_back(

@@ -46,7 +46,7 @@ double parseOption(const OptionInfo& option, std::string_view text);
 /// The value as the user would type it, with its unit: "2 %", "bounded", "0.5 lux".
 std::string formatOption(const OptionInfo& option, double value);
 
-/// "0.01 % to 100 %", "bounded, bfa or bf"; empty for flags.
+/// "0.01 % to 100 %", "bounded, bfa, bf or strict"; empty for flags.
 std::string describeRange(const OptionInfo& option);
 
 }  // namespace fluxwalk::solve

@@ -5,8 +5,8 @@
 
 #include "core/base/photometry.h"
 #include "core/hierarchy/local_frame.h"
+#include "core/solve/assess_link.h"
 #include "core/transport/coefficients.h"
-#include "core/transport/visibility.h"
 
 namespace fluxwalk::solve {
 
@@ -57,17 +57,6 @@ bool facesAway(const Shape& from, const Shape& to) {
     const double between = base::NormalCone::angleBetween(Vec3d(from.axis), glm::normalize(Vec3d(d)));
     const double delta = std::asin(std::min(1.0, static_cast<double>(reach / distance)));
     return between - static_cast<double>(from.halfAngle) - delta >= 0.5 * base::kPi;
-}
-
-// The spread that a curved end's cone of normals implies for light from `direction`.
-float curvatureOf(const Shape& shape, const base::Vec3& direction) {
-    const float distance = glm::length(direction);
-    const bool isCluster = shape.cornerCount == 0;
-    if (shape.isPlanar || isCluster || distance <= 0.0f) {
-        return 0.0f;
-    }
-    const double angle = base::NormalCone::angleBetween(Vec3d(shape.axis), Vec3d(direction / distance));
-    return transport::boundCurvature(static_cast<float>(angle), shape.halfAngle);
 }
 
 class Refinement {
@@ -141,51 +130,8 @@ class Refinement {
   private:
     bool isSplittable(NodeId id) const { return hierarchy_.canSplit(id, minArea_); }
 
-    bool hasConstantKernel(const Link& link) const {
-        if (hierarchy_.kind(link.a) != NodeKind::element || hierarchy_.kind(link.b) != NodeKind::element) {
-            return false;
-        }
-        const hierarchy::ElementName a = hierarchy_.name(link.a);
-        const hierarchy::ElementName b = hierarchy_.name(link.b);
-        return a.object == b.object && a.back == b.back && hierarchy_.surfaceOf(link.a).exactKernel(a.back);
-    }
-
     bool isSource(NodeId id) const {
         return hierarchy_.kind(id) == NodeKind::light || hierarchy_.kind(id) == NodeKind::sky;
-    }
-
-    transport::LinkAssessment assessLink(const Link& link, float visibilityUpper, bool isMixed) const {
-        const hierarchy::Light& a = hierarchy_.light(link.a);
-        const hierarchy::Light& b = hierarchy_.light(link.b);
-        const Shape& shapeA = hierarchy_.shape(link.a);
-        const Shape& shapeB = hierarchy_.shape(link.b);
-        const bool isOneWay = isSource(link.b);
-        transport::LinkBounds k;
-        k.coupling = link.coupling;
-        k.visibility = link.visibility();
-        k.visibilityUpper = visibilityUpper;
-        k.isMixed = isMixed;
-        k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
-        k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
-        // Where the kernel is one constant, distance makes up for what the cosines do.
-        const float curvature =
-            hasConstantKernel(link) ? 0.0f : static_cast<float>(problem_.options.curvatureWeight);
-        k.curvatureA = curvature * curvatureOf(shapeA, shapeB.center - shapeA.center);
-        k.curvatureB = isOneWay ? 0.0f : curvature * curvatureOf(shapeB, shapeA.center - shapeB.center);
-        k.radiosityA = isOneWay ? 0.0f : base::channelMean(a.radiosity);
-        k.radiosityB = base::channelMean(b.radiosity);
-        k.residualA = isOneWay ? 0.0f : a.residual;
-        k.residualB = b.residual;
-        k.rangeA = isOneWay ? 0.0f : a.range();
-        k.rangeB = b.range();
-        k.areaA = shapeA.exposedArea();
-        k.areaB = isOneWay ? 1.0f : shapeB.exposedArea();
-        k.radiusA = shapeA.radius;
-        k.radiusB = isOneWay ? 0.0f : shapeB.radius;
-        k.distance = glm::distance(shapeA.center, shapeB.center);
-        k.sceneArea = sceneArea_;
-        k.isCluster = shapeA.cornerCount == 0 || (!isOneWay && shapeB.cornerCount == 0);
-        return transport::assess(problem_.options.oracle, k);
     }
 
     Verdict chooseSplit(const Link& link, bool preferA) const {
@@ -197,10 +143,6 @@ class Refinement {
         return (preferA && canA) || !canB ? Verdict::splitA : Verdict::splitB;
     }
 
-    static bool isPartlyBlocked(const Link& link) {
-        return !link.isOpen() && link.visibility() > 0.0f && link.visibility() < 1.0f;
-    }
-
     // How a concave element that sees itself goes on.
     Verdict judgeSelf(NodeId id) const {
         const hierarchy::ElementName name = hierarchy_.name(id);
@@ -208,11 +150,14 @@ class Refinement {
             return Verdict::accept;
         }
         const Shape& shape = hierarchy_.shape(id);
-        const float error = transport::assessSelf(
-            problem_.options.oracle, {.area = shape.exposedArea(),
-                                      .halfAngle = shape.halfAngle,
-                                      .radiosity = base::channelMean(hierarchy_.light(id).radiosity),
-                                      .sceneArea = sceneArea_});
+        const hierarchy::Light& light = hierarchy_.light(id);
+        const OracleKind oracle = problem_.options.oracle;
+        const float range = oracle == OracleKind::strict ? light.range() : 0.0f;
+        const float error =
+            transport::assessSelf(oracle, {.area = shape.exposedArea(),
+                                           .halfAngle = shape.halfAngle,
+                                           .radiosity = base::channelMean(light.radiosity) + range,
+                                           .sceneArea = sceneArea_});
         return error <= threshold_ ? Verdict::accept : Verdict::splitSelf;
     }
 
@@ -225,17 +170,13 @@ class Refinement {
             if (isMinorPair(link.a, link.b)) {
                 return Verdict::accept;
             }
-            if (!areApart(link.a, link.b) || link.coupling <= 0.0f) {
+            // Points prove nothing.
+            const bool isStrict = problem_.options.oracle == OracleKind::strict;
+            if (isStrict || !areApart(link.a, link.b) || link.coupling <= 0.0f) {
                 return splitCluster(link.a, link.b);
             }
         }
-        const float v = link.visibility();
-        const NodeKind kindB = hierarchy_.kind(link.b);
-        // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
-        const bool isMixed = isPartlyBlocked(link) && kindB != NodeKind::sky;
-        const unsigned rays = isMixed || isSource(link.b) ? transport::kSecondRays : transport::kFirstRays;
-        const float upper = link.isOpen() ? 1.0f : transport::visibilityUpperBound(v, rays);
-        const transport::LinkAssessment assessment = assessLink(link, upper, isMixed);
+        const transport::LinkAssessment assessment = assessLink(problem_, link, threshold_);
         return assessment.error <= threshold_ ? Verdict::accept : chooseSplit(link, assessment.splitA);
     }
 
@@ -267,7 +208,8 @@ class Refinement {
         Coefficient c;
         service_.compute(std::span(&pair, 1), std::span(&c, 1));
         count(c, counters);
-        if (c.isBlocked || c.coupling <= 0.0f) {
+        // A strict oracle is not content that no sample saw another.
+        if (c.isBlocked || (c.coupling <= 0.0f && problem_.options.oracle != OracleKind::strict)) {
             return d;
         }
         setCoefficient(d.link, c);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/transport/gauss_points.h"
+
 namespace fluxwalk::transport {
 
 namespace {
@@ -9,10 +11,6 @@ namespace {
 using base::Vec2d;
 
 constexpr double kGauss2 = 0.21132486540518713;  ///< 2-point Gauss-Legendre on [0, 1]
-constexpr std::array<double, 4> kGauss4{0.069431844202973714, 0.33000947820757187, 0.66999052179242813,
-                                        0.93056815579702629};
-constexpr std::array<double, 4> kGauss4Weight{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                              0.17392742256872693};
 
 /// Half angle of the cone of normals in radians up to which an element counts as flat.
 constexpr float kFlatAngle = 1e-5f;

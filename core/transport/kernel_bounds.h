@@ -1,8 +1,15 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/hierarchy/hierarchy.h"
 
+/// Certain bounds of what elements exchange: from hulls and cones of normals, never from samples.
 namespace fluxwalk::transport {
+
+using base::NodeId;
+using base::Vec3d;
 
 /// What a form factor lies between.
 struct FactorBounds {
@@ -10,9 +17,42 @@ struct FactorBounds {
     double upper = 1.0;
 };
 
-/// Bounds, without occlusion, of the form factor from any point of `receiver` to the whole of `source`, both
-/// elements: from the corners of planar ones, from the bounding spheres and the cones of normals of curved
-/// ones. [0, 1] where the two may touch. (ALGORITHMS 1.4; Lischinski et al. 1994, Stamminger et al. 1997.)
-FactorBounds boundPointFactor(const hierarchy::Shape& receiver, const hierarchy::Shape& source);
+/// Part of an element: in the hull of points, with normals in a cone.
+struct ElementHull {
+    std::array<Vec3d, 8> points{};  ///< corners of planar parts, of the box of curved ones
+    std::uint32_t pointCount = 0;
+    Vec3d axis{};
+    double cosine = 1.0;  ///< of the half angle of the cone
+    double sine = 0.0;
+};
+
+/// What a part sends.
+struct SourcePart {
+    ElementHull hull;
+    double area = 0.0;      ///< m2
+    Vec3d vectorArea{0.0};  ///< integral of the normals, m2
+    Vec3d centroid{};
+    double turning = 0.0;  ///< integral of |normal - mean normal| |position - centroid|, m3
+    double inertia = 0.0;  ///< integral of |position - centroid|2, m4
+};
+
+/// An element cut into parts.
+struct ElementParts {
+    /// Where it receives: quarters, their quarters, which for part i stand from 4 i + 4 on, and theirs.
+    std::array<ElementHull, 84> receivers{};
+    static constexpr std::size_t kCutReceivers = 20;
+    /// Where it sends: all of a planar element, 4 x 4 parts of a curved one.
+    std::array<SourcePart, 16> sources{};
+    std::size_t sourceCount = 0;
+    Vec3d center{};  ///< of the sphere around all of it
+    double radius = 0.0;
+};
+
+ElementParts makeElementParts(const hierarchy::Hierarchy& hierarchy, NodeId id);
+
+/// Bounds, without occlusion, of the form factor from any point of `receiver` to the whole of `source`. The
+/// upper one is at most 1, also where the two may touch. (ALGORITHMS 1.4; Lischinski et al. 1994, Stamminger
+/// et al. 1997.)
+FactorBounds boundPointFactor(const ElementParts& receiver, const ElementParts& source);
 
 }  // namespace fluxwalk::transport

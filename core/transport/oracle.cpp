@@ -50,6 +50,18 @@ LinkAssessment assessBounded(const LinkBounds& k) {
     return {std::max(towardsA, towardsB) / k.sceneArea, splitA};
 }
 
+// Most that may arrive less the least.
+LinkAssessment assessStrict(const LinkBounds& k) {
+    const auto between = [&k](const FactorBounds& factor, float radiosity, float range) {
+        const double highest = factor.upper * static_cast<double>(radiosity + range);
+        const double lowest = factor.lower * static_cast<double>(std::max(0.0f, radiosity - range));
+        return static_cast<float>(k.isOpen ? highest - lowest : highest);
+    };
+    const float towardsA = k.areaA * between(k.factorA, k.radiosityB, k.rangeB);
+    const float towardsB = k.areaB * between(k.factorB, k.radiosityA, k.rangeA);
+    return {std::max(towardsA, towardsB) / k.sceneArea, k.radiusA >= k.radiusB};
+}
+
 }  // namespace
 
 float boundCurvature(float angle, float halfAngle) {
@@ -77,6 +89,8 @@ LinkAssessment assess(OracleKind oracle, const LinkBounds& k) {
             return {transfer * std::max(k.radiosityA, k.radiosityB) / k.sceneArea, largerA};
         case OracleKind::bf:
             return {std::max(transfer * k.radiosityB / k.areaA, transfer * k.radiosityA / k.areaB), largerA};
+        case OracleKind::strict:
+            return assessStrict(k);
     }
     return {};
 }

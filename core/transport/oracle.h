@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "core/transport/kernel_bounds.h"
+
 namespace fluxwalk::transport {
 
 /// Decides which links are refined (ALGORITHMS 1.3).
@@ -9,7 +11,8 @@ enum class OracleKind : std::uint8_t {
     bounded,  ///< spread of kernel, visibility and radiosity, weighed by power (Schaefer section 1;
               ///< Lischinski et al. 1994)
     bfa,      ///< B F A: the transferred power itself (Hanrahan et al. 1991)
-    bf        ///< B F: the transferred irradiance itself
+    bf,       ///< B F: the transferred irradiance itself
+    strict    ///< certain bounds of kernel, visibility and radiosity, by power; samples narrow none of them
 };
 
 /// What is known of a pair's exchange; radiosities are channel means in lm/m2.
@@ -33,6 +36,11 @@ struct LinkBounds {
     float radiusA = 1.0f;
     float radiusB = 1.0f;
     float distance = 1.0f;  ///< between the centres
+    /// Of strict: what F(x<-b) over a and F(x<-a) over b lie between, and whether all of it is certainly
+    /// seen.
+    FactorBounds factorA{};
+    FactorBounds factorB{};
+    bool isOpen = false;
     float sceneArea = 1.0f;
     bool isCluster = false;  ///< one end or both
 };

@@ -6,18 +6,13 @@
 
 #include "core/base/photometry.h"
 #include "core/transport/exact_form_factor.h"
+#include "core/transport/gauss_points.h"
 
 namespace fluxwalk::transport {
 
 namespace {
 
 using base::kPi;
-
-/// 4-point Gauss-Legendre on [0, 1].
-constexpr std::array<double, 4> kNode{0.069431844202973714, 0.33000947820757187, 0.66999052179242813,
-                                      0.93056815579702629};
-constexpr std::array<double, 4> kWeight{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                        0.17392742256872693};
 
 // cos cos r2, without the parts of either that face away.
 template <class Point>
@@ -64,7 +59,7 @@ double meanFactor(const ElementGrid& receiver, const ElementPoints& source, cons
 template <std::size_t side>
 double nodeAt(std::size_t i) {
     const std::size_t part = i / 4;
-    return (static_cast<double>(part) + kNode[i % 4]) * (4.0 / static_cast<double>(side));
+    return (static_cast<double>(part) + kGauss4[i % 4]) * (4.0 / static_cast<double>(side));
 }
 
 template <std::size_t side>
@@ -78,7 +73,8 @@ GaussGrid<side> makeGrid(const hierarchy::Hierarchy& hierarchy, NodeId id) {
             // The square root in a triangle's map is undone, so that the integrand stays smooth.
             const double s = nodeAt<side>(i);
             const SurfaceSample p = sampler.at({isTriangle ? s * s : s, nodeAt<side>(j)});
-            const double weight = kWeight[i % 4] * kWeight[j % 4] * p.measure * (isTriangle ? s : 1.0);
+            const double weight =
+                kGauss4Weight[i % 4] * kGauss4Weight[j % 4] * p.measure * (isTriangle ? s : 1.0);
             grid.points[side * j + i] = {p.position, p.normal, weight};
             sum += weight;
         }

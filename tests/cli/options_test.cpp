@@ -70,7 +70,8 @@ TEST(OptionsTable, ChoicesFollowTheEnum) {
     EXPECT_EQ(parse("oracle", "bounded"), static_cast<double>(OracleKind::bounded));
     EXPECT_EQ(parse("oracle", "bfa"), static_cast<double>(OracleKind::bfa));
     EXPECT_EQ(parse("oracle", "bf"), static_cast<double>(OracleKind::bf));
-    EXPECT_EQ(refusal("oracle", "fb"), "--oracle: 'fb' is not bounded, bfa or bf");
+    EXPECT_EQ(parse("oracle", "strict"), static_cast<double>(OracleKind::strict));
+    EXPECT_EQ(refusal("oracle", "fb"), "--oracle: 'fb' is not bounded, bfa, bf or strict");
 }
 
 TEST(OptionsTable, FractionsComeInPercentOrAsNumbers) {

@@ -46,6 +46,13 @@ TEST_F(GltfBadInput, WrongIndices) {
     expectError(errorAfter([](json& r) { r["nodes"][0]["mesh"] = 0.5; }), "/nodes/0/mesh: is not an index");
     // Cut to 32 bits, this would be a good index.
     expectError(errorAfter([](json& r) { r["nodes"][0]["mesh"] = 4294967296; }), "/nodes/0/mesh");
+    for (const char* key :
+         {"fluxwalk_surface", "fluxwalk_radius", "fluxwalk_inside", "fluxwalk_subdivision"}) {
+        expectError(errorAfter([key](json& r) {
+                        r["nodes"][0]["extras"] = {{key, nullptr}};
+                    }),
+                    std::string("/nodes/0/extras/") + key + ": is null");
+    }
     expectError(errorAfter([](json& r) { r["nodes"][0]["camera"] = 0; }), "/nodes/0/camera");
     expectError(errorAfter([](json& r) { r["nodes"][0]["children"] = {7}; }), "/nodes/0/children/0");
     expectError(errorAfter([](json& r) { r["meshes"][0]["primitives"][0]["indices"] = 9; }),

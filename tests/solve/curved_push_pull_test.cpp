@@ -125,6 +125,80 @@ TEST(CurvedAreas, planarParentsWouldCreatePower) {
     EXPECT_NEAR(projected, 1.1756, 1e-4);
 }
 
+namespace {
+
+// Area of the polygon of an element's corners.
+double polygonArea(const hierarchy::Shape& shape) {
+    const std::array<Vec3d, 3> c{Vec3d(shape.corners[0]), Vec3d(shape.corners[1]), Vec3d(shape.corners[2])};
+    return .5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+}
+
+/// How children's radiosities become their parent's.
+enum class Pull { trueArea, plainArea };
+
+// Solves the furnace inside a sphere, one level deep, over the hierarchy's nodes and links: gather, push and
+// pull as sweeps do them, with constants. `gain` gets what one pull makes of constant light.
+double solveFurnace(const Problem& problem, float rho, Pull rule, double& gain) {
+    const hierarchy::Hierarchy& h = problem.hierarchy;
+    std::vector<double> radiosity(h.nodeCount(), 1.0);
+    const auto pull = [&] {
+        for (const NodeId patch : h.patches()) {
+            double sum = 0.0;
+            double area = 0.0;
+            for (unsigned c = 0; c < 4; ++c) {
+                const NodeId child = h.child(patch, c);
+                const double part = rule == Pull::trueArea ? static_cast<double>(h.shape(child).area)
+                                                           : polygonArea(h.shape(child));
+                sum += part * radiosity[base::index(child)];
+                area += static_cast<double>(h.shape(child).area);
+            }
+            radiosity[base::index(patch)] =
+                sum / (rule == Pull::trueArea ? area : polygonArea(h.shape(patch)));
+        }
+    };
+    pull();
+    gain = radiosity[base::index(h.patches()[0])];
+    for (int sweep = 0; sweep < 200; ++sweep) {
+        std::vector<double> irradiance(h.nodeCount(), 0.0);
+        for (const NodeId patch : h.patches()) {
+            for (const std::uint32_t l : problem.links.endingAt(patch)) {
+                const hierarchy::Link& link = problem.links.links[l];
+                const NodeId source = link.a == patch ? link.b : link.a;
+                irradiance[base::index(patch)] += static_cast<double>(link.transfer() / h.shape(patch).area) *
+                                                  radiosity[base::index(source)];
+            }
+            for (unsigned c = 0; c < 4; ++c) {
+                radiosity[base::index(h.child(patch, c))] =
+                    1.0 + static_cast<double>(rho) * irradiance[base::index(patch)];
+            }
+        }
+        pull();
+    }
+    return radiosity[base::index(h.child(h.patches()[0], 0))];
+}
+
+}  // namespace
+
+// Negative test n2 in a solve: inside a glowing sphere, links between octants and light on their quarters. B
+// = 1 / (1 - rho), or 1 / (1 - gain rho) with the gain of one pull where plain areas are divided by the
+// parent's polygon: +50 % on the octahedron, so that rho = .7 has no solution.
+TEST(PlainPull, furnaceGainsWhatItsPolygonsSay) {
+    scene::Scene scene = test::glowingScene("sphere");
+    test::addCurved(scene, "sphere", std::make_shared<surface::Sphere>(Vec3d(1, 2, 3), 1.5, true));
+    const auto problem = test::makeProblem(std::move(scene));
+    test::refine(*problem, 1e9);
+    hierarchy::Hierarchy& h = problem->hierarchy;
+    ASSERT_EQ(h.patches().size(), 8u);
+    h.split(test::leavesOf(h), problem->executor);
+    problem->links.index(h.nodeCount());
+    double gain = 0.0;
+    EXPECT_NEAR(solveFurnace(*problem, .5f, Pull::trueArea, gain), 2.0, 1e-4);
+    EXPECT_NEAR(gain, 1.0, 1e-6);
+    EXPECT_NEAR(solveFurnace(*problem, .5f, Pull::plainArea, gain), 1.0 / (1.0 - .5 * 1.504), .01);
+    EXPECT_NEAR(gain, 1.504, 1e-3);
+    EXPECT_GT(solveFurnace(*problem, .7f, Pull::plainArea, gain), 1e4);
+}
+
 // An octant's middle quarter has the solid angle W = 2 atan(sqrt(2) / 5), the others (pi/2 - W) / 3 each,
 // whose normals lean from the octant's by the angle of cosine (1 + 2 sqrt 2) / sqrt(3 ((1 + sqrt 2)^2 + 1)).
 TEST(ProjectedPull, makesThePredictedPower) {

@@ -19,13 +19,12 @@ using base::Vec3d;
 using hierarchy::Shape;
 
 // Form factor from a point to an element: exact for planar ones, else by points in n x n strata.
-double pointFactor(const hierarchy::Hierarchy& h, const transport::SurfaceSample& x, NodeId source) {
+double pointFactor(const hierarchy::Hierarchy& h, const transport::SurfaceSample& x, NodeId source,
+                   unsigned n) {
     const Shape& shape = h.shape(source);
     if (shape.isPlanar) {
         return transport::computePointFactor(x.position, x.normal, transport::makeElementPoints(h, source));
     }
-    const double distance = glm::distance(x.position, Vec3d(shape.center));
-    const unsigned n = distance < 3.0 * static_cast<double>(shape.radius) ? 24 : 6;
     const transport::ElementSampler sampler(h, source);
     double sum = 0.0;
     double measure = 0.0;
@@ -75,16 +74,22 @@ Quality inspect(scene::Scene scene, unsigned levels, int pairsOnEach) {
             ++used;
             const transport::ElementSampler sampler(built.tree, a);
             const transport::SurfaceSample x = sampler.at(random.next2());
-            const double factor = pointFactor(built.tree, x, b);
             const Shape& from = built.tree.shape(a);
             const Shape& to = built.tree.shape(b);
-            const transport::FactorBounds bounds = transport::boundPointFactor(from, to);
-            quality.outside +=
-                factor < bounds.lower - kRoundingOfFactor || factor > bounds.upper + kRoundingOfFactor ? 1
-                                                                                                       : 0;
+            const double distance =
+                static_cast<double>(glm::distance(from.center, to.center) / (from.radius + to.radius));
+            const transport::FactorBounds bounds = transport::boundPointFactor(
+                transport::makeElementParts(built.tree, a), transport::makeElementParts(built.tree, b));
+            const auto isOutside = [&bounds](double factor) {
+                return factor < bounds.lower - kRoundingOfFactor || factor > bounds.upper + kRoundingOfFactor;
+            };
+            double factor = pointFactor(built.tree, x, b, distance < 2.0 ? 24 : 6);
+            if (isOutside(factor)) {
+                // Few points miss a sliver above a horizon.
+                factor = pointFactor(built.tree, x, b, 200);
+            }
+            quality.outside += isOutside(factor) ? 1 : 0;
             quality.bounded += bounds.upper < 1.0 ? 1 : 0;
-            const double distance = static_cast<double>(glm::distance(from.center, to.center)) /
-                                    static_cast<double>(from.radius + to.radius);
             if (distance > 3.5 && distance < 4.5 && factor > 0.0) {
                 quality.tightness.push_back((bounds.upper - bounds.lower) / factor);
             }
@@ -96,20 +101,20 @@ Quality inspect(scene::Scene scene, unsigned levels, int pairsOnEach) {
     return quality;
 }
 
-TEST(KernelBounds, holdAllFactorsOfTheCornellBox) {
+TEST(KernelBounds, tightlyHoldAllFactorsOfTheCornellBox) {
     const Quality quality = inspect(scene::buildCornellBox(base::Rgb(100.0f)), 4, 20000);
     EXPECT_EQ(quality.outside, 0);
     EXPECT_GT(quality.bounded, 50000);
     ASSERT_GT(quality.tightness.size(), 1000u);
-    RecordProperty("tightness", std::to_string(test::quantile(quality.tightness, 0.5)));
+    EXPECT_LT(test::quantile(quality.tightness, 0.5), 1.5);
 }
 
-TEST(KernelBounds, holdAllFactorsOfCurvedObjects) {
-    const Quality quality = inspect(test::buildCurvedRoom(), 4, 20000);
+TEST(KernelBounds, tightlyHoldAllFactorsOfCurvedObjects) {
+    const Quality quality = inspect(test::buildCurvedRoom(), 4, 10000);
     EXPECT_EQ(quality.outside, 0);
-    EXPECT_GT(quality.bounded, 50000);
+    EXPECT_GT(quality.bounded, 40000);
     ASSERT_GT(quality.tightness.size(), 1000u);
-    RecordProperty("tightness", std::to_string(test::quantile(quality.tightness, 0.5)));
+    EXPECT_LT(test::quantile(quality.tightness, 0.5), 1.5);
 }
 
 }  // namespace
