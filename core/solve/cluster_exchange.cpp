@@ -1,7 +1,5 @@
 #include "core/solve/cluster_exchange.h"
 
-#include "core/transport/cluster_factor.h"
-
 namespace fluxwalk::solve {
 
 namespace {
@@ -23,22 +21,26 @@ ClusterExchange::ClusterExchange(const Problem& problem, const std::vector<float
     if (count == 0) {
         return;
     }
-    shares_.resize(count);
+    views_.resize(count);
     stamp_.assign(h.nodeCount(), 0);
     first_.assign(h.nodeCount(), 0);
     problem.executor.forRange(count, 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Link& link = problem.links.links[i];
-            const auto sum = [&](NodeId id, NodeId other) {
-                return h.kind(id) == NodeKind::cluster ? transport::sumShares(h, id, h.shape(other)) : 0.0f;
+            const auto view = [&h](NodeId id, NodeId other) -> View {
+                if (h.kind(id) != NodeKind::cluster) {
+                    return {};
+                }
+                const transport::Ball ball = transport::findBall(h, id, other);
+                return {ball, transport::sumShares(h, id, ball)};
             };
-            shares_[i] = {sum(link.a, link.b), sum(link.b, link.a)};
+            views_[i] = {view(link.a, link.b), view(link.b, link.a)};
         }
     });
 }
 
-float ClusterExchange::sumOfShares(std::size_t link, NodeId id) const {
-    return shares_[link][problem_.links.links[link].a == id ? 0 : 1];
+const ClusterExchange::View& ClusterExchange::viewFrom(std::size_t link, NodeId id) const {
+    return views_[link][problem_.links.links[link].a == id ? 0 : 1];
 }
 
 Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
@@ -46,14 +48,13 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
     if (h.kind(id) != NodeKind::cluster) {
         return (isUniform_ ? Rgb(1.0f) : h.light(id).radiosity) * scaleOf(id);
     }
-    const float shares = sumOfShares(link, id);
-    const hierarchy::Shape& other = h.shape(otherEnd(problem_.links.links[link], id));
+    const View& view = viewFrom(link, id);
     Vec3d sum(0.0);
     double all = 0.0;
     for (const NodeId patch : h.patchesBelow(id)) {
         const hierarchy::Shape& shape = h.shape(patch);
         const float share =
-            shape.exposedArea() * (shares > 0.0f ? transport::patchShare(shape, other) : 1.0f);
+            shape.exposedArea() * (view.shares > 0.0f ? transport::patchShare(shape, view.other) : 1.0f);
         if (share > 0.0f) {
             const Rgb radiosity = isUniform_ ? Rgb(1.0f) : h.light(patch).radiosity;
             sum += static_cast<double>(share * scaleOf(patch)) * Vec3d(radiosity);
@@ -67,14 +68,13 @@ ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t lin
     const Hierarchy& h = problem_.hierarchy;
     const Link& l = problem_.links.links[link];
     const NodeId source = otherEnd(l, cluster);
-    const hierarchy::Shape& shape = h.shape(source);
-    const float shares = sumOfShares(link, cluster);
+    const View& view = viewFrom(link, cluster);
     const Rgb power = l.transfer() * shownBy(link, source);
-    if (shares > 0.0f) {
-        return {shape.center, shape.radius, power / shares};
+    if (view.shares > 0.0f) {
+        return {view.other, false, power / view.shares};
     }
     const float area = h.shape(cluster).exposedArea();
-    return {shape.center, -1.0f, area > 0.0f ? power / area : Rgb(0.0f)};
+    return {{}, true, area > 0.0f ? power / area : Rgb(0.0f)};
 }
 
 void ClusterExchange::gather(std::size_t begin, std::size_t end, std::span<Rgb> out) {
@@ -107,9 +107,7 @@ void ClusterExchange::gather(std::size_t begin, std::size_t end, std::span<Rgb> 
                 const std::size_t count = problem_.links.endingAt(id).size();
                 for (std::size_t k = 0; k < count; ++k) {
                     const Incoming& in = incoming_[first_[base::index(id)] + k];
-                    const float share = in.radius < 0.0f ? 1.0f
-                                                         : transport::patchShare(shape.center, shape.axis,
-                                                                                 in.center, in.radius);
+                    const float share = in.isEven ? 1.0f : transport::patchShare(shape, in.source);
                     sum += Vec3d(share * in.flux);
                 }
             }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/solve/state.h"
+#include "core/transport/cluster_factor.h"
 
 namespace fluxwalk::solve {
 
@@ -26,21 +27,27 @@ class ClusterExchange {
   private:
     /// What one link brings to a cluster: the irradiance of a patch is `flux` times its share.
     struct Incoming {
-        base::Vec3 center{};
-        float radius = 0.0f;  ///< of the other end; negative where all patches get the same
+        transport::Ball source;
+        bool isEven = false;  ///< all patches get the same
         Rgb flux{0.0f};
     };
 
-    float sumOfShares(std::size_t link, NodeId id) const;
+    /// How a cluster at one end of a link sees the other end.
+    struct View {
+        transport::Ball other;
+        float shares = 0.0f;  ///< sum over its patches, m2 / m2
+    };
+
+    const View& viewFrom(std::size_t link, NodeId id) const;
     Incoming bring(NodeId cluster, std::size_t link) const;
     float scaleOf(NodeId id) const { return scale_.empty() ? 1.0f : scale_[base::index(id)]; }
 
     const Problem& problem_;
     const std::vector<float>& scale_;
     bool isUniform_;
-    std::vector<std::array<float, 2>> shares_;  ///< of both ends of the links with clusters; 0 of elements
-    std::vector<std::uint32_t> stamp_;          ///< by cluster: the last call of gather() that needed it
-    std::vector<std::uint32_t> first_;          ///< by cluster: its first one in incoming_
+    std::vector<std::array<View, 2>> views_;  ///< of both ends of the links with clusters; of elements unused
+    std::vector<std::uint32_t> stamp_;        ///< by cluster: the last call of gather() that needed it
+    std::vector<std::uint32_t> first_;        ///< by cluster: its first one in incoming_
     std::vector<Incoming> incoming_;
     std::vector<std::pair<NodeId, std::uint32_t>> wanted_;  ///< cluster and link of each incoming one
     std::uint32_t calls_ = 0;

@@ -214,6 +214,10 @@ class Refinement {
         }
         setCoefficient(d.link, c);
         d.verdict = judge(d.link);
+        if (const unsigned before = c.rays; d.verdict == Verdict::accept && service_.settleContact(pair, c)) {
+            setCoefficient(d.link, c);
+            counters.rays += c.rays - before;
+        }
         return d;
     }
 

@@ -34,6 +34,8 @@ constexpr int kFinalSweeps = 100;
 constexpr int kSweepsAfterStop = 2;
 constexpr double kFinalResidual = 1e-6;
 constexpr double kPublishInterval = 0.1;  ///< seconds
+/// Of the time, snapshots take no more than about one part in this many.
+constexpr double kPublishShare = 8.0;
 /// The first picture waits for its third sweep or so: a millisecond more, and interreflection is there.
 constexpr double kFirstResidual = 0.04;
 
@@ -154,18 +156,21 @@ class Run {
 
     void publish(bool isFinished) {
         problem_.statistics.times.total = seconds();
-        const bool isTooEarly = sequence_ > 0 ? secondsSince(published_) < kPublishInterval
-                                              : problem_.statistics.residual > kFirstResidual;
+        const double wait = std::max(kPublishInterval, kPublishShare * publishTime_);
+        const bool isTooEarly =
+            sequence_ > 0 ? secondsSince(published_) < wait : problem_.statistics.residual > kFirstResidual;
         if (!callbacks_.publish || (!isFinished && isTooEarly)) {
             return;
         }
-        published_ = Clock::now();
+        const Clock::time_point start = Clock::now();
         auto snapshot = std::make_shared<Snapshot>();
         snapshot->sequence = ++sequence_;
         snapshot->meshes = display_.refresh();
         snapshot->statistics = problem_.statistics;
         snapshot->finished = isFinished;
         callbacks_.publish(std::move(snapshot));
+        published_ = Clock::now();
+        publishTime_ = secondsSince(start);
     }
 
     void sweep(int most, double residual) {
@@ -206,6 +211,7 @@ class Run {
     double before_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point published_{};
+    double publishTime_ = 0.0;  ///< seconds that the last snapshot took
     bool wasStopped_ = false;
     bool isOutOfTime_ = false;
 };

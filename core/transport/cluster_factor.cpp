@@ -80,7 +80,7 @@ struct Received {
 };
 
 Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, const Values& values,
-                   const hierarchy::Shape& other) {
+                   const Ball& other) {
     Received r;
     std::array<double, kClusterPoints> share{};
     for (unsigned k = 0; k < kClusterPoints; ++k) {
@@ -104,27 +104,27 @@ Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, c
     return r;
 }
 
-// The points are few: the sums over all patches are better known.
-double correct(const hierarchy::Hierarchy& h, NodeId cluster, const hierarchy::Shape& other,
-               const Received& received) {
+// The points are few: the sums over all patches are better known. Where few points had a share, that is not
+// stretched to many times what they show.
+double correct(const hierarchy::Hierarchy& h, NodeId cluster, const Ball& other, const Received& received) {
     constexpr double kMost = 4.0;
     if (!(received.shares > 0.0)) {
-        return 1.0;
+        return 0.0;
     }
-    const auto shares = static_cast<double>(sumShares(h, cluster, other));
-    return std::clamp(shares / received.shares, 1.0 / kMost, kMost);
+    return std::min(static_cast<double>(sumShares(h, cluster, other)) / received.shares, kMost);
 }
 
 PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     const ClusterPoints pointsA = makeClusterPoints(h, a);
     const ClusterPoints pointsB = makeClusterPoints(h, b);
     const BothClusters both = hasAvx2() ? exchangeAvx2(pointsA, pointsB) : exchangeBaseline(pointsA, pointsB);
-    const Received atA = summarize(h, pointsA, both.atA, h.shape(b));
-    const Received atB = summarize(h, pointsB, both.atB, h.shape(a));
+    const Ball ballA = findBall(h, b, a);
+    const Ball ballB = findBall(h, a, b);
+    const Received atA = summarize(h, pointsA, both.atA, ballB);
+    const Received atB = summarize(h, pointsB, both.atB, ballA);
     PairFactor result;
     result.evaluations = 2 * kClusterPoints * kClusterPoints;
-    result.coupling =
-        0.5 * (atA.power + atB.power) * correct(h, a, h.shape(b), atA) * correct(h, b, h.shape(a), atB);
+    result.coupling = 0.5 * (atA.power + atB.power) * correct(h, a, ballB, atA) * correct(h, b, ballA, atB);
     result.spreadA = atA.spread;
     result.spreadB = atB.spread;
     return result;
@@ -137,14 +137,15 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
     for (unsigned k = 0; k < kClusterBlocks; ++k) {
         values[k] = computePointFactors(points.position[k], points.normal[k], e);
     }
-    const Received received = summarize(h, points, values, h.shape(element));
+    const Ball ball = findBall(h, cluster, element);
+    const Received received = summarize(h, points, values, ball);
     PairFactor result;  // a: the cluster
     result.evaluations = kClusterPoints * (e.contourCount + kLanes);
     if (!(received.power > 0.0)) {
         return result;
     }
-    result.coupling = received.power * correct(h, cluster, h.shape(element), received) *
-                      static_cast<double>(h.shape(element).exposed);
+    result.coupling =
+        received.power * correct(h, cluster, ball, received) * static_cast<double>(h.shape(element).exposed);
     result.spreadA = received.spread;
     const Lanes atElement =
         hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);
@@ -166,7 +167,36 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
 
 }  // namespace
 
-float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const hierarchy::Shape& other) {
+Ball findBall(const hierarchy::Hierarchy& hierarchy, NodeId cluster, NodeId other) {
+    const hierarchy::Shape& shape = hierarchy.shape(other);
+    const Ball sphere{shape.center, shape.radius};
+    if (shape.cornerCount == 0 || !shape.isPlanar) {
+        return sphere;
+    }
+    const Vec3d eye(hierarchy.shape(cluster).center);
+    Vec3d sum(0.0);
+    for (std::uint32_t i = 0; i < shape.cornerCount; ++i) {
+        const Vec3d a = Vec3d(shape.corners[i]) - eye;
+        const Vec3d b = Vec3d(shape.corners[(i + 1) % shape.cornerCount]) - eye;
+        const Vec3d c = glm::cross(b, a);
+        const double s = glm::length(c);
+        if (s > 0.0) {
+            sum += c * (std::atan2(s, glm::dot(a, b)) / s);
+        }
+    }
+    const double length = glm::length(sum);
+    // Half of that is pi times the squared sine of a cone with the same light.
+    const double sine = std::sqrt(std::min(1.0, 0.5 * length / base::kPi));
+    const Vec3d toward = length > 0.0 ? sum / length : Vec3d(0.0);
+    const double facing = -glm::dot(toward, Vec3d(shape.axis));
+    if (!(facing > 1e-3) || !(sine > 1e-6)) {
+        return sphere;
+    }
+    const double radius = std::sqrt(static_cast<double>(shape.area) * facing / base::kPi);
+    return {base::Vec3(eye + radius / sine * toward), static_cast<float>(radius)};
+}
+
+float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const Ball& other) {
     double sum = 0.0;
     for (const NodeId id : hierarchy.patchesBelow(cluster)) {
         const hierarchy::Shape& shape = hierarchy.shape(id);

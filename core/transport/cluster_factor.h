@@ -9,30 +9,44 @@
 /// source's patches add up what they send there, the receiver's take their shares.
 namespace fluxwalk::transport {
 
-/// Share of a patch with mean normal `axis` at `position`, in 1/m2: the cosine towards a ball, for balls that
-/// cross the patch's horizon the smooth mean of the visible part, over the squared distance.
-inline float patchShare(const base::Vec3& position, const base::Vec3& axis, const base::Vec3& center,
-                        float radius) {
-    const base::Vec3 d = center - position;
-    const float r2 = glm::dot(d, d);
-    if (r2 <= 0.0f) {
-        return 0.0f;
+/// A node as a cluster sees it.
+struct Ball {
+    base::Vec3 center{};
+    float radius = 0.0f;
+};
+
+/// The ball that stands for the other end of a cluster's link: of clusters the bounding sphere, of planar
+/// elements, which may be large and near, one with the direction and size of the light that they send to the
+/// cluster's centre (Lambert's vector of the polygon).
+Ball findBall(const hierarchy::Hierarchy& hierarchy, NodeId cluster, NodeId other);
+
+/// Share of a patch, in 1/m2: the part of a ball's light that it would receive, over the squared distance.
+/// The cosine where all of the ball is above the patch's horizon; where it is cut, fitted to the exact factor
+/// of a ball, which tends to (cos + s)^2 / (4 s) for small and is (1 + cos) / 2 for touching ones, s being
+/// the sine of the angle that the ball and the patch's own cone of normals take up. Inside the ball as on its
+/// surface.
+inline float patchShare(const hierarchy::Shape& patch, const Ball& ball) {
+    const base::Vec3 d = ball.center - patch.center;
+    const float r = std::sqrt(std::max(glm::dot(d, d), 1e-30f));
+    const float cosine = glm::dot(patch.axis, d) / r;
+    float s = std::min(1.0f, ball.radius / r);
+    if (patch.halfAngle > 0.0f) {
+        s = std::min(1.0f, s + std::min(1.0f, patch.halfAngle));
     }
-    const float r = std::sqrt(r2);
-    const float cosine = glm::dot(axis, d) / r;
-    const float s = std::min(1.0f, radius / r);
     if (cosine <= -s) {
         return 0.0f;
     }
-    const float lit = cosine >= s ? cosine : (cosine + s) * (cosine + s) / (4.0f * s);
-    return lit / r2;
+    float lit = cosine;
+    if (cosine < s) {
+        const float t = 0.5f * (cosine + s) / s;
+        const float touching = s * s * s;
+        lit = s * t * (t + touching * (1.0f - t));
+    }
+    const float away = std::max(r, ball.radius);
+    return lit / std::max(away * away, 1e-30f);
 }
-inline float patchShare(const hierarchy::Shape& patch, const hierarchy::Shape& other) {
-    return patchShare(patch.center, patch.axis, other.center, other.radius);
-}
-
 /// Sum of the shares of a cluster's patches, times their exposed areas.
-float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const hierarchy::Shape& other);
+float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const Ball& other);
 
 /// Unoccluded exchange of a pair of which at least one is a cluster, from 32 points of each cluster; an
 /// element's factor is exact at these. Spreads of clusters: twice the mean deviation from the shares of the

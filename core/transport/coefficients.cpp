@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/base/random.h"
 #include "core/transport/cluster_factor.h"
+#include "core/transport/contact_visibility.h"
 #include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
 #include "core/transport/shaft.h"
@@ -14,6 +16,10 @@
 namespace fluxwalk::transport {
 
 namespace {
+
+/// Where the bounding spheres of planar elements overlap and this part of the smaller one's light meets the
+/// other, the kernel's peak at the contact counts.
+constexpr float kContactFactor = 0.01f;
 
 // Kernel in 1/m2 at the edge of a light's range, where that may lie within the element though none of its
 // points is reached.
@@ -193,9 +199,8 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         case ShaftContent::unknown:
             break;
     }
-    const VisibilitySample seen =
-        sampleVisibility(hierarchy_, rays_, query.a, query.b,
-                         query.isEdge ? RayEffort::second : RayEffort::staged, out.coupling);
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b,
+                                                   query.isEdge ? RayEffort::second : RayEffort::staged);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);
@@ -207,6 +212,28 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         out.spreadA = out.spreadB = 1.0f / static_cast<float>(seen.rays + 2);
     }
     return out;
+}
+
+bool CoefficientService::settleContact(const Query& query, Coefficient& coefficient) const {
+    const hierarchy::Shape& a = hierarchy_.shape(query.a);
+    const hierarchy::Shape& b = hierarchy_.shape(query.b);
+    const float least = std::min(a.exposedArea(), b.exposedArea());
+    if (!coefficient.isMixed || hierarchy_.kind(query.b) != hierarchy::NodeKind::element || !a.isPlanar ||
+        !b.isPlanar || glm::distance(a.center, b.center) >= a.radius + b.radius ||
+        coefficient.coupling <= kContactFactor * least) {
+        return false;
+    }
+    const std::uint64_t keyA = hierarchy_.key(query.a);
+    const std::uint64_t keyB = hierarchy_.key(query.b);
+    const bool isFirst = keyA <= keyB;
+    const ContactSample contact =
+        sampleContact(hierarchy_, rays_, isFirst ? query.a : query.b, isFirst ? query.b : query.a,
+                      base::combine(std::min(keyA, keyB), std::max(keyA, keyB)));
+    coefficient.rays = static_cast<std::uint16_t>(std::min(coefficient.rays + contact.rays, 0xffffU));
+    if (contact.seen > 0.0 && contact.seen < contact.sent) {
+        coefficient.visibility = static_cast<float>(contact.seen / contact.sent);
+    }
+    return true;
 }
 
 Coefficient CoefficientService::fromSource(const Query& query) const {

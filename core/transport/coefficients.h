@@ -47,6 +47,10 @@ class CoefficientService {
     /// out.size() == queries.size(). Safe to call from several threads on disjoint spans.
     void compute(std::span<const Query> queries, std::span<Coefficient> out) const;
 
+    /// Looks more closely at a partly blocked pair that stays as it is, if it is one of planar elements that
+    /// touch and exchange much (contact_visibility.h): returns whether the coefficient was changed.
+    bool settleContact(const Query& query, Coefficient& coefficient) const;
+
   private:
     Coefficient betweenElements(const Query& query) const;
     Coefficient withClusters(const Query& query) const;

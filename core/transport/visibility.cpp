@@ -9,7 +9,6 @@
 #include "core/base/random.h"
 #include "core/hierarchy/local_frame.h"
 #include "core/transport/cluster_points.h"
-#include "core/transport/contact_visibility.h"
 #include "core/transport/element_sampler.h"
 
 namespace fluxwalk::transport {
@@ -189,7 +188,7 @@ VisibilitySample toSample(const Stage& stage) {
 }  // namespace
 
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b, RayEffort effort, float coupling) {
+                                  NodeId b, RayEffort effort) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
     const bool isSwapped = keyA > keyB;
@@ -211,25 +210,15 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
         const float distance = glm::distance(shapeA.center, shapeB.center);
-        const float reach = shapeA.radius + shapeB.radius;
         const bool areElements = shapeA.cornerCount > 0 && shapeB.cornerCount > 0;
-        if (areElements && distance < kNearPair * reach) {
+        if (areElements && distance < kNearPair * (shapeA.radius + shapeB.radius)) {
             for (unsigned round = 1; round < kNearRounds; ++round) {
                 stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
             }
         }
         sample = toSample(stage);
         sample.isMixed = true;
-        unsigned count = stage.count + (isEdge ? 0 : firstRays);
-        const float least = std::min(shapeA.exposedArea(), shapeB.exposedArea());
-        if (distance < reach && shapeA.isPlanar && shapeB.isPlanar && coupling > kContactFactor * least) {
-            const ContactSample contact = sampleContact(hierarchy, rays, a, b, key);
-            count += contact.rays;
-            if (contact.seen > 0.0 && contact.seen < contact.sent) {
-                sample.mean = static_cast<float>(contact.seen / contact.sent);
-            }
-        }
-        sample.rays = static_cast<std::uint16_t>(count);
+        sample.rays = static_cast<std::uint16_t>(stage.count + (isEdge ? 0 : firstRays));
         sample.gradientA = stage.shadowGradient(0, hierarchy::localFrame(shapeA.cornerCount));
         sample.gradientB = stage.shadowGradient(1, hierarchy::localFrame(shapeB.cornerCount));
         if (isSwapped) {

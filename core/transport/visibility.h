@@ -29,10 +29,6 @@ inline constexpr unsigned kSecondRays = 64;
 /// within 1.5 to 3 %, 99 % of them within .8 % instead of 1.1 %, for 3 % more rays.)
 inline constexpr float kNearPair = 1.5f;
 inline constexpr unsigned kNearRounds = 16;
-/// Where the bounding spheres of planar elements overlap and this part of the smaller one's light meets the
-/// other, the kernel's peak at the contact counts.
-inline constexpr float kContactFactor = 0.01f;
-
 /// How many rays a pair gets.
 enum class RayEffort : std::uint8_t {
     staged,  ///< the second stage only where the first one's rays differ
@@ -47,11 +43,8 @@ enum class RayEffort : std::uint8_t {
 /// take a thin beam or a thin shadow for none. Which pairs were partly blocked depends on the rays that said
 /// so, and what is refined once is not refined back: light would be lost through every opening (room behind
 /// one: 1.4 % at 50,000 links without, .2 % with, for 5 % more time on the Cornell box).
-///
-/// `coupling`: the unoccluded one in m2, 0 where it is not known: planar elements that touch and exchange
-/// much are looked at more closely (contact_visibility.h).
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b, RayEffort effort = RayEffort::staged, float coupling = 0.0f);
+                                  NodeId b, RayEffort effort = RayEffort::staged);
 
 /// Between an element and a light source without area, or the sky.
 VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
