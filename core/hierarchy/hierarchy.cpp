@@ -97,7 +97,7 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     leafCount_ = patches_.size();
     shapePatches(executor);
     shapeClusters();
-    sumAreas();
+    tabulatePatches();
 }
 
 void Hierarchy::resize(std::size_t count) {
@@ -213,9 +213,23 @@ void Hierarchy::orderPatches() {
     }
 }
 
+void Hierarchy::tabulatePatches() {
+    for (const NodeId id : patches_) {
+        const Shape& from = shape(id);
+        for (int axis = 0; axis < 3; ++axis) {
+            patchTable_.center[static_cast<std::size_t>(axis)].push_back(from.center[axis]);
+            patchTable_.axis[static_cast<std::size_t>(axis)].push_back(from.axis[axis]);
+        }
+        patchTable_.spread.push_back(std::min(1.0f, from.halfAngle));
+    }
+    patchTable_.area.resize(patches_.size());
+    sumAreas();
+}
+
 void Hierarchy::sumAreas() {
     areaBefore_.assign(patches_.size() + 1, 0.0);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
+        patchTable_.area[i] = shape(patches_[i]).exposedArea();
         areaBefore_[i + 1] = areaBefore_[i] + static_cast<double>(shape(patches_[i]).exposedArea());
     }
     for (std::size_t i = patchRange_.size(); i-- > 0;) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/ids.h"
+#include "core/hierarchy/patch_table.h"
 #include "core/hierarchy/reach.h"
 #include "core/rays/patch_tree.h"
 #include "core/scene/texture.h"
@@ -117,6 +118,7 @@ class Hierarchy {
     }
     /// Index into patches() of the first of them.
     std::uint32_t firstPatchBelow(NodeId id) const { return patchRange_[index(id)][0]; }
+    const PatchTable& patchTable() const { return patchTable_; }
     /// Exposed area in m2 of the first `count` patches.
     double exposedAreaBefore(std::size_t count) const { return areaBefore_[count]; }
     /// Box about a cluster or patch.
@@ -150,6 +152,7 @@ class Hierarchy {
     void shapePatches(const base::Executor& executor);
     void shapeClusters();
     void orderPatches();
+    void tabulatePatches();
     void sumAreas();
 
     const scene::Scene* scene_;
@@ -173,6 +176,7 @@ class Hierarchy {
     std::vector<NodeId> patches_;
     std::vector<std::array<std::uint32_t, 2>> patchRange_;  ///< of clusters and patches, in patches_
     std::vector<double> areaBefore_;
+    PatchTable patchTable_;
     std::vector<Extent> extent_;  ///< of clusters and patches
     std::vector<NodeId> sources_;
     std::vector<std::array<NodeId, 2>> patchNodes_;  ///< by shaft item: front, back

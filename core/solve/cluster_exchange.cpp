@@ -1,5 +1,7 @@
 #include "core/solve/cluster_exchange.h"
 
+#include <algorithm>
+
 namespace fluxwalk::solve {
 
 namespace {
@@ -7,6 +9,9 @@ namespace {
 using hierarchy::Hierarchy;
 using hierarchy::Link;
 using hierarchy::NodeKind;
+
+/// Patches that are taken at once.
+constexpr std::size_t kRun = 64;
 
 NodeId otherEnd(const Link& link, NodeId id) {
     return link.a == id ? link.b : link.a;
@@ -37,6 +42,24 @@ ClusterExchange::ClusterExchange(const Problem& problem, const std::vector<float
             views_[i] = {view(link.a, link.b), view(link.b, link.a)};
         }
     });
+    for (std::vector<float>& channel : radiosity_) {
+        channel.resize(h.patches().size());
+    }
+    refresh(0, h.patches().size());
+}
+
+void ClusterExchange::refresh(std::size_t begin, std::size_t end) {
+    if (isEmpty()) {
+        return;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+        const NodeId patch = problem_.hierarchy.patches()[i];
+        const Rgb shown =
+            (isUniform_ ? Rgb(1.0f) : problem_.hierarchy.light(patch).radiosity) * scaleOf(patch);
+        radiosity_[0][i] = shown.r;
+        radiosity_[1][i] = shown.g;
+        radiosity_[2][i] = shown.b;
+    }
 }
 
 const ClusterExchange::View& ClusterExchange::viewFrom(std::size_t link, NodeId id) const {
@@ -49,19 +72,24 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
         return (isUniform_ ? Rgb(1.0f) : h.light(id).radiosity) * scaleOf(id);
     }
     const View& view = viewFrom(link, id);
+    const hierarchy::PatchTable& table = h.patchTable();
+    const std::size_t first = h.firstPatchBelow(id);
+    const std::size_t end = first + h.patchesBelow(id).size();
+    std::array<float, kRun> shares;
+    shares.fill(1.0f);
     Vec3d sum(0.0);
-    double all = 0.0;
-    for (const NodeId patch : h.patchesBelow(id)) {
-        const hierarchy::Shape& shape = h.shape(patch);
-        const float share =
-            shape.exposedArea() * (view.shares > 0.0f ? transport::patchShare(shape, view.other) : 1.0f);
-        if (share > 0.0f) {
-            const Rgb radiosity = isUniform_ ? Rgb(1.0f) : h.light(patch).radiosity;
-            sum += static_cast<double>(share * scaleOf(patch)) * Vec3d(radiosity);
-            all += static_cast<double>(share);
+    for (std::size_t i = first; i < end; i += kRun) {
+        const std::size_t count = std::min(kRun, end - i);
+        if (view.shares > 0.0f) {
+            transport::computeShares(table, i, view.other, std::span(shares.data(), count));
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto weight = static_cast<double>(table.area[i + k] * shares[k]);
+            sum += weight * Vec3d(radiosity_[0][i + k], radiosity_[1][i + k], radiosity_[2][i + k]);
         }
     }
-    return all > 0.0 ? Rgb(sum / all) : Rgb(0.0f);
+    const float all = view.shares > 0.0f ? view.shares : h.shape(id).exposedArea();
+    return all > 0.0f ? Rgb(sum / static_cast<double>(all)) : Rgb(0.0f);
 }
 
 ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t link) const {
@@ -98,22 +126,40 @@ void ClusterExchange::gather(std::size_t begin, std::size_t end, std::span<Rgb> 
             incoming_[i] = bring(wanted_[i].first, wanted_[i].second);
         }
     });
-    problem_.executor.forRange(end - begin, 64, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const NodeId patch = patches[begin + i];
-            const hierarchy::Shape& shape = h.shape(patch);
-            Vec3d sum(0.0);
-            for (NodeId id = h.parent(patch); id != NodeId::none; id = h.parent(id)) {
-                const std::size_t count = problem_.links.endingAt(id).size();
-                for (std::size_t k = 0; k < count; ++k) {
-                    const Incoming& in = incoming_[first_[base::index(id)] + k];
-                    const float share = in.isEven ? 1.0f : transport::patchShare(shape, in.source);
-                    sum += Vec3d(share * in.flux);
-                }
-            }
-            out[i] = Rgb(sum) * scaleOf(patch);
+    problem_.executor.forRange(end - begin, kRun, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; i += kRun) {
+            const std::size_t count = std::min(kRun, last - i);
+            share(begin + i, begin + i + count, out.subspan(i, count));
         }
     });
+}
+
+// Adds what the clusters above patches[begin, end), at most kRun of them, share out.
+void ClusterExchange::share(std::size_t begin, std::size_t end, std::span<Rgb> out) const {
+    const Hierarchy& h = problem_.hierarchy;
+    std::array<Vec3d, kRun> sums{};
+    std::array<float, kRun> shares;
+    for (std::size_t i = begin; i < end; ++i) {
+        // Each cluster once, at its first patch here.
+        for (NodeId id = h.parent(h.patches()[i]);
+             id != NodeId::none && (i == begin || h.firstPatchBelow(id) == i); id = h.parent(id)) {
+            const std::size_t last = std::min(end, h.firstPatchBelow(id) + h.patchesBelow(id).size());
+            const std::size_t count = last - i;
+            for (std::size_t k = 0; k < problem_.links.endingAt(id).size(); ++k) {
+                const Incoming& in = incoming_[first_[base::index(id)] + k];
+                shares.fill(1.0f);
+                if (!in.isEven) {
+                    transport::computeShares(h.patchTable(), i, in.source, std::span(shares.data(), count));
+                }
+                for (std::size_t p = 0; p < count; ++p) {
+                    sums[i - begin + p] += Vec3d(shares[p] * in.flux);
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < end - begin; ++i) {
+        out[i] = Rgb(sums[i]) * scaleOf(h.patches()[begin + i]);
+    }
 }
 
 }  // namespace fluxwalk::solve

@@ -22,6 +22,9 @@ class ClusterExchange {
     /// for patches[begin + i].
     void gather(std::size_t begin, std::size_t end, std::span<Rgb> out);
 
+    /// Takes over the radiosities of patches[begin, end), which shownBy() reads.
+    void refresh(std::size_t begin, std::size_t end);
+
     bool isEmpty() const { return problem_.links.clusterLinks == 0; }
 
   private:
@@ -38,6 +41,7 @@ class ClusterExchange {
         float shares = 0.0f;  ///< sum over its patches, m2 / m2
     };
 
+    void share(std::size_t begin, std::size_t end, std::span<Rgb> out) const;
     const View& viewFrom(std::size_t link, NodeId id) const;
     Incoming bring(NodeId cluster, std::size_t link) const;
     float scaleOf(NodeId id) const { return scale_.empty() ? 1.0f : scale_[base::index(id)]; }
@@ -46,8 +50,9 @@ class ClusterExchange {
     const std::vector<float>& scale_;
     bool isUniform_;
     std::vector<std::array<View, 2>> views_;  ///< of both ends of the links with clusters; of elements unused
-    std::vector<std::uint32_t> stamp_;        ///< by cluster: the last call of gather() that needed it
-    std::vector<std::uint32_t> first_;        ///< by cluster: its first one in incoming_
+    std::array<std::vector<float>, 3> radiosity_;  ///< of the patches, scaled
+    std::vector<std::uint32_t> stamp_;             ///< by cluster: the last call of gather() that needed it
+    std::vector<std::uint32_t> first_;             ///< by cluster: its first one in incoming_
     std::vector<Incoming> incoming_;
     std::vector<std::pair<NodeId, std::uint32_t>> wanted_;  ///< cluster and link of each incoming one
     std::uint32_t calls_ = 0;

@@ -73,6 +73,7 @@ double Sweeper::sweep() {
     for (const Block& block : blocks_) {
         gather(block);
         pushPull(block, change, power);
+        clusters_.refresh(block.beginPatch, block.endPatch);
     }
     problem_.hierarchy.pullClusters();
     ++problem_.statistics.counters.sweeps;

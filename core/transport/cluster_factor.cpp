@@ -1,6 +1,7 @@
 #include "core/transport/cluster_factor.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/photometry.h"
 #include "core/transport/cluster_points.h"
@@ -86,7 +87,7 @@ Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, c
     for (unsigned k = 0; k < kClusterPoints; ++k) {
         const unsigned block = k / kLanes;
         const int lane = static_cast<int>(k % kLanes);
-        share[k] = static_cast<double>(patchShare(h.shape(h.patches()[points.patch[k]]), other));
+        share[k] = static_cast<double>(computeShare(h.patchTable(), points.patch[k], other));
         r.power += points.area[block][lane] * values[block][lane];
         r.shares += points.area[block][lane] * share[k];
     }
@@ -194,15 +195,6 @@ Ball findBall(const hierarchy::Hierarchy& hierarchy, NodeId cluster, NodeId othe
     }
     const double radius = std::sqrt(static_cast<double>(shape.area) * facing / base::kPi);
     return {base::Vec3(eye + radius / sine * toward), static_cast<float>(radius)};
-}
-
-float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const Ball& other) {
-    double sum = 0.0;
-    for (const NodeId id : hierarchy.patchesBelow(cluster)) {
-        const hierarchy::Shape& shape = hierarchy.shape(id);
-        sum += static_cast<double>(shape.exposedArea() * patchShare(shape, other));
-    }
-    return static_cast<float>(sum);
 }
 
 PairFactor computeClusterFactor(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b) {

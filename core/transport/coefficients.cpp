@@ -226,9 +226,9 @@ bool CoefficientService::settleContact(const Query& query, Coefficient& coeffici
     const std::uint64_t keyA = hierarchy_.key(query.a);
     const std::uint64_t keyB = hierarchy_.key(query.b);
     const bool isFirst = keyA <= keyB;
-    const ContactSample contact =
-        sampleContact(hierarchy_, rays_, isFirst ? query.a : query.b, isFirst ? query.b : query.a,
-                      base::combine(std::min(keyA, keyB), std::max(keyA, keyB)));
+    const ContactSample contact = sampleContact(
+        hierarchy_, rays_, isFirst ? query.a : query.b, isFirst ? query.b : query.a,
+        static_cast<double>(coefficient.coupling), base::combine(std::min(keyA, keyB), std::max(keyA, keyB)));
     coefficient.rays = static_cast<std::uint16_t>(std::min(coefficient.rays + contact.rays, 0xffffU));
     if (contact.seen > 0.0 && contact.seen < contact.sent) {
         coefficient.visibility = static_cast<float>(contact.seen / contact.sent);

@@ -14,14 +14,30 @@ namespace {
 
 using base::Vec2d;
 
-/// Directions tried from each end, and bundles that their rays are traced in. Touching elements of one size
-/// meet some 5 to 20 % of them.
-constexpr unsigned kTries = 4096;
+/// Most directions tried from both ends, and bundles that their rays are traced in. Touching elements of one
+/// size meet some 5 to 20 % of them.
+constexpr unsigned kTries = 8192;
+/// Rays after which the share is well known.
+constexpr double kEnough = 1024.0;
 constexpr unsigned kBundle = 64;
 
 /// Steps of the four-dimensional sequence of M. Roberts (2018): powers of 1/x, x^5 = x + 1.
 constexpr std::array<double, 4> kSteps{0.8566748838545029, 0.733891856627126, 0.6287067210378087,
                                        0.5385972572236101};
+
+constexpr std::size_t kTurns = 2048;
+
+const std::array<Vec2d, kTurns>& unitCircle() {
+    static const std::array<Vec2d, kTurns> kPoints = [] {
+        std::array<Vec2d, kTurns> points;
+        for (std::size_t i = 0; i < kTurns; ++i) {
+            const double angle = 2.0 * base::kPi * (static_cast<double>(i) + 0.5) / kTurns;
+            points[i] = {std::cos(angle), std::sin(angle)};
+        }
+        return points;
+    }();
+    return kPoints;
+}
 
 /// A planar element as what a line may meet.
 class Target {
@@ -115,7 +131,7 @@ class Target {
 }  // namespace
 
 ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                            NodeId b, std::uint64_t key) {
+                            NodeId b, double coupling, std::uint64_t key) {
     ContactSample sample;
     std::array<rays::Ray, kBundle> bundle;
     std::array<double, kBundle> weights{};
@@ -132,6 +148,8 @@ ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::R
     };
     const double areaA = static_cast<double>(hierarchy.shape(a).exposedArea());
     const double areaB = static_cast<double>(hierarchy.shape(b).exposedArea());
+    // Of the tries from both ends, 2 g / (A_a + A_b) meet the other.
+    const double all = std::min<double>(kTries, kEnough * 0.5 * (areaA + areaB) / coupling);
     for (const bool isSwapped : {false, true}) {
         const NodeId from = isSwapped ? b : a;
         const NodeId to = isSwapped ? a : b;

@@ -17,8 +17,9 @@ struct ContactSample {
 /// From points of either end, cosine-distributed directions that meet the exposed part of the other: each
 /// stands for the same power. Pairs of points would have to be weighted by the kernel, and where the ends
 /// touch a few of them outweigh all others, so that their ratio falls short (furnace of check 7: by 2 % where
-/// a wall stands on the floor). Symmetric in `a` and `b` as long as `key` is.
+/// a wall stands on the floor). `coupling`: the unoccluded one in m2, which says how many directions will do.
+/// Symmetric in `a` and `b` as long as `key` is.
 ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                            NodeId b, std::uint64_t key);
+                            NodeId b, double coupling, std::uint64_t key);
 
 }  // namespace fluxwalk::transport

@@ -16,10 +16,19 @@ using test::Sample;
 using transport::ContactSample;
 using transport::sampleContact;
 
+double couplingOf(const Built& built, NodeId a, NodeId b) {
+    const transport::Query query{a, b, true};
+    transport::Coefficient all;
+    transport::CoefficientService(built.tree, built.rays).compute(std::span(&query, 1), std::span(&all, 1));
+    return static_cast<double>(all.coupling);
+}
+
 Sample estimate(const Built& built, NodeId a, NodeId b, std::uint64_t keys) {
     Sample ratios;
+    const double coupling = couplingOf(built, a, b);
     for (std::uint64_t key = 0; key < keys; ++key) {
-        const ContactSample sample = sampleContact(built.tree, built.rays, a, b, base::mix(key + 1));
+        const ContactSample sample =
+            sampleContact(built.tree, built.rays, a, b, coupling, base::mix(key + 1));
         EXPECT_GT(sample.rays, 400U);
         ratios.add(sample.seen / sample.sent);
     }
@@ -34,10 +43,7 @@ TEST(ContactVisibility, isThatOfTheClosedForm) {
                                      {{1, 0, 0}, {1, 3, 0}, {1, 3, 3}, {1, 0, 3}}}));
     const NodeId floor = built.tree.patchNode(0, 0, false);
     const NodeId wall = built.tree.patchNode(1, 0, false);
-    const transport::Query query{floor, wall, true};
-    transport::Coefficient all;
-    transport::CoefficientService(built.tree, built.rays).compute(std::span(&query, 1), std::span(&all, 1));
-    const double seen = 2.0 * .200043776 / static_cast<double>(all.coupling);
+    const double seen = 2.0 * .200043776 / couplingOf(built, floor, wall);
     const Sample sample = estimate(built, floor, wall, 100);
     EXPECT_NEAR(sample.mean(), seen, 4.5 * sample.standardError());
     EXPECT_LT(sample.standardError(), .002);
@@ -80,8 +86,9 @@ TEST(ContactVisibility, isTheSameInEveryRun) {
                                      {{1, 0, 0}, {1, .5, 0}, {1, .5, 3}, {1, 0, 3}}}));
     const NodeId floor = built.tree.patchNode(0, 0, false);
     const NodeId wall = built.tree.patchNode(1, 0, false);
-    const ContactSample first = sampleContact(built.tree, built.rays, floor, wall, 7);
-    const ContactSample second = sampleContact(built.tree, built.rays, floor, wall, 7);
+    const double coupling = couplingOf(built, floor, wall);
+    const ContactSample first = sampleContact(built.tree, built.rays, floor, wall, coupling, 7);
+    const ContactSample second = sampleContact(built.tree, built.rays, floor, wall, coupling, 7);
     EXPECT_EQ(first.seen, second.seen);
     EXPECT_EQ(first.sent, second.sent);
     EXPECT_GT(first.seen, 0.0);
