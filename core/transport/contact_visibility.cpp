@@ -162,7 +162,7 @@ ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::R
         const Vec3d other = glm::cross(normal, side);
         // As many tries for each m2, so that both ends' counts can be added.
         const auto tries =
-            static_cast<unsigned>(std::lround(2.0 * kTries * (isSwapped ? areaB : areaA) / (areaA + areaB)));
+            static_cast<unsigned>(std::lround(all * (isSwapped ? areaB : areaA) / (areaA + areaB)));
         base::RandomStream random(base::combine(key, isSwapped ? 1 : 0));
         std::array<double, 4> x{random.next(), random.next(), random.next(), random.next()};
         for (unsigned i = 0; i < tries; ++i) {
@@ -172,9 +172,9 @@ ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::R
             }
             const SurfaceSample p = sampler.inExposed({x[0], x[1]});
             const double sine = std::sqrt(x[2]);
-            const double angle = 2.0 * base::kPi * x[3];
+            const Vec2d& around = unitCircle()[static_cast<std::size_t>(x[3] * kTurns)];
             const Vec3d direction =
-                sine * (std::cos(angle) * side + std::sin(angle) * other) + std::sqrt(1.0 - x[2]) * normal;
+                sine * (around.x * side + around.y * other) + std::sqrt(1.0 - x[2]) * normal;
             if (const auto q = target.meet(p.position, direction, isBack)) {
                 weights[used] = p.measure;
                 bundle[used++] = rays.segment(p.position, p.normal, *q, target.normal());
