@@ -108,6 +108,17 @@ std::vector<OptionInfo> makeTable() {
              "'embree' takes Embree's tree over boxes.",
          .get = [](const Options& o) { return static_cast<double>(o.clusters); },
          .set = [](Options& o, double value) { o.clusters = static_cast<TreeBuilder>(value); }});
+    table.push_back(
+        {.name = "cluster-links",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .choices = {"off", "on"},
+         .explanation =
+             "Whether links may end at clusters. 'off' links all pairs of patches that see each other, as "
+             "without a hierarchy above them: the work grows with the square of their number.",
+         .get = [](const Options& o) { return o.clusterLinks ? 1.0 : 0.0; },
+         .set = [](Options& o, double value) { o.clusterLinks = value != 0.0; }});
     table.push_back({.name = "rays",
                      .kind = OptionKind::choice,
                      .minimum = 0.0,

@@ -167,6 +167,9 @@ class Refinement {
             return judgeSelf(link.a);
         }
         if (isCluster(link.a) || isCluster(link.b)) {
+            if (!problem_.options.clusterLinks) {
+                return splitCluster(link.a, link.b);
+            }
             if (isMinorPair(link.a, link.b)) {
                 return Verdict::accept;
             }

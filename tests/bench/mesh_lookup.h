@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/rays/spatial_tree.h"
 #include "core/scene/lit_mesh.h"
 
