@@ -22,8 +22,8 @@ class ImageReader {
         // HDF5 takes a copy and does not write to what it is given.
         check(H5Pset_file_image(access.get(), const_cast<std::uint8_t*>(image_.data()), image_.size()), "");
         // HDF5 takes no image by the name of a file that exists: a name inside one cannot.
-        const std::string name = file_ + "/image";
-        const Hdf5Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, file_, "");
+        const std::string inside = file_ + "/image";
+        const Hdf5Handle file(H5Fopen(inside.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, file_, "");
         base::NamedArrays arrays;
         const Hdf5Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, file_, "");
         arrays.kind = readText(root.get(), "kind");
