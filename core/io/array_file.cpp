@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
@@ -61,7 +60,8 @@ base::NamedArrays readArrayFile(const std::filesystem::path& file) {
         throw base::FileError(file.string(), "", message);
     };
     Header header;
-    std::memcpy(&header, bytes.data(), std::min(bytes.size(), sizeof(header)));
+    std::copy_n(bytes.begin(), std::min(bytes.size(), sizeof(header)),
+                reinterpret_cast<std::uint8_t*>(&header));
     if (header.magic != kMagic) {
         refuse("is no checkpoint");
     }
