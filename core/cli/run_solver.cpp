@@ -1,5 +1,6 @@
 #include "core/cli/run_solver.h"
 
+#include "core/cli/checkpointing.h"
 #include "core/cli/interrupt.h"
 #include "core/cli/output.h"
 #include "core/cli/progress.h"
@@ -13,6 +14,7 @@ ExitCode Solved::exitCode() const {
 
 Solved runSolver(const std::string& command, const SceneArguments& sceneArguments,
                  const SolverArguments& solverArguments, const OutputArguments& output) {
+    Checkpointing checkpointing(solverArguments);
     Solved solved;
     solved.scene = std::make_shared<const scene::Scene>(loadScene(sceneArguments));
     if (!output.quiet) {
@@ -23,15 +25,17 @@ Solved runSolver(const std::string& command, const SceneArguments& sceneArgument
     solved.report.command = command;
     solved.report.scene = scene::describeScene(*solved.scene, scene::TextureSet(*solved.scene));
     solved.report.arguments = solverArguments;
-    solved.solver =
-        std::make_unique<solve::Solver>(solved.scene, solverArguments.options, solverArguments.threads);
+    solved.report.arguments.options = checkpointing.options();
+    solved.solver = checkpointing.makeSolver(solved.scene, checkpointing.options(), solverArguments.threads);
 
     const Interrupt interrupt;
     Progress progress(stderr, chooseStyle(stderr, output.quiet));
     solve::Callbacks callbacks;
     callbacks.shouldStop = [] { return Interrupt::isRequested(); };
+    callbacks.levelDone = [&] { checkpointing.keep(*solved.solver); };
     callbacks.progress = [&](double fraction, const char* stage) { progress.update(fraction, stage); };
     solved.report.outcome = solved.solver->solve(callbacks);
+    checkpointing.finish();
     return solved;
 }
 

@@ -37,6 +37,26 @@ std::string describe(const solve::OptionInfo& option) {
                        solve::formatOption(option, option.defaultValue()), solve::describeRange(option));
 }
 
+void set(SolverArguments& arguments, const solve::OptionInfo& option, double value) {
+    option.set(arguments.options, value);
+    arguments.typed.emplace_back(&option, value);
+}
+
+void addCheckpointOptions(CLI::App& app, SolverArguments& arguments) {
+    app.add_option("--checkpoint", arguments.checkpoint,
+                   "Keep the state of the solve in this file, as of the last level of refinement that was "
+                   "finished: written after each, so that a stop, a crash or a full disk leaves the one "
+                   "before. HDF5, readable from Python.")
+        ->type_name("FILE")
+        ->group("Solver");
+    app.add_option("--resume", arguments.resume,
+                   "Go on from a checkpoint of the same SCENE (and --sky), to the same bits as a solve that "
+                   "was not interrupted. Its options hold unless they are typed anew; --seed, --clusters and "
+                   "--rays cannot change, and --time-limit counts anew.")
+        ->type_name("FILE")
+        ->group("Solver");
+}
+
 }  // namespace
 
 void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
@@ -44,7 +64,7 @@ void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
         const std::string name = "--" + std::string(option.name);
         if (option.kind == solve::OptionKind::flag) {
             app.add_flag_callback(
-                   name, [&arguments, &option] { option.set(arguments.options, 1.0); },
+                   name, [&arguments, &option] { set(arguments, option, 1.0); },
                    std::string(option.explanation) + " Off by default.")
                 ->group("Solver");
             continue;
@@ -52,7 +72,7 @@ void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
         app.add_option_function<std::string>(
                name,
                [&arguments, &option](const std::string& text) {
-                   option.set(arguments.options, solve::parseOption(option, text));
+                   set(arguments, option, solve::parseOption(option, text));
                },
                describe(option))
             ->type_name(typeName(option))
@@ -66,6 +86,7 @@ void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
            "Threads to work on; the result does not depend on it. Default 0: all that the machine has.")
         ->type_name("N")
         ->group("Solver");
+    addCheckpointOptions(app, arguments);
 }
 
 void addOutputOptions(CLI::App& app, OutputArguments& arguments) {

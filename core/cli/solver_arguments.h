@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <utility>
+#include <vector>
 
-#include "core/solve/options.h"
+#include "core/solve/options_table.h"
 
 namespace CLI {
 class App;
@@ -13,7 +15,11 @@ namespace fluxwalk::cli {
 /// How to solve, from the table in core/solve/options_table.h, and on how many threads.
 struct SolverArguments {
     solve::Options options;
-    unsigned threads = 0;  ///< 0: all that the machine has
+    /// What was typed, in order: it goes before what a resumed checkpoint says.
+    std::vector<std::pair<const solve::OptionInfo*, double>> typed;
+    std::filesystem::path checkpoint;  ///< the state of the solve is kept here, empty for nowhere
+    std::filesystem::path resume;      ///< the solve goes on from this checkpoint, empty for a new one
+    unsigned threads = 0;              ///< 0: all that the machine has
 };
 
 /// What to tell and where.

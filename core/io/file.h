@@ -20,4 +20,7 @@ std::vector<std::uint8_t> readFile(const std::filesystem::path& file, std::uint6
 void writeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
 void writeFile(const std::filesystem::path& file, std::string_view text);
 
+/// The same for several parts one behind the other, and durable: when it returns, they are on the disk.
+void replaceFile(const std::filesystem::path& file, std::span<const std::span<const std::uint8_t>> parts);
+
 }  // namespace fluxwalk::io

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/photometry.h"
 #include "core/solve/audit.h"
+#include "core/solve/checkpoint.h"
 #include "core/solve/display_update.h"
 #include "core/solve/probes.h"
 #include "core/solve/refine.h"
@@ -113,9 +114,7 @@ struct Solver::State {
     Problem problem;
     DisplayUpdate display;
     std::vector<Probe> probes;
-    std::vector<Rgb> gathered;  ///< at the probes, after the last level
-    double ambient = 0.0;
-    bool isStarted = false;
+    LoopState loop;
     std::uint64_t sequence = 0;
 };
 
@@ -124,10 +123,12 @@ namespace {
 /// One call of Solver::solve.
 class Run {
   public:
-    Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, std::uint64_t& sequence)
+    Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, LoopState& loop,
+        std::uint64_t& sequence)
         : problem_(problem),
           display_(display),
           callbacks_(callbacks),
+          loop_(loop),
           sequence_(sequence),
           before_(problem.statistics.times.total) {}
 
@@ -135,6 +136,7 @@ class Run {
         if (callbacks_.newOptions) {
             if (const auto changed = callbacks_.newOptions()) {
                 const Options built = problem_.options;
+                loop_.hasChanged = true;
                 problem_.options = *changed;
                 problem_.options.seed = built.seed;
                 problem_.options.clusters = built.clusters;
@@ -143,9 +145,11 @@ class Run {
         }
         wasStopped_ = wasStopped_ || (callbacks_.shouldStop && callbacks_.shouldStop());
         const double limit = problem_.options.timeLimit;
-        isOutOfTime_ = isOutOfTime_ || (limit > 0.0 && seconds() > limit);
-        return wasStopped_ || isOutOfTime_;
+        isOutOfTime_ = isOutOfTime_ || (limit > 0.0 && seconds() - loop_.secondsBefore > limit);
+        return isCut();
     }
+    /// Whether a stop has been seen.
+    bool isCut() const { return wasStopped_ || isOutOfTime_; }
 
     double seconds() const { return before_ + secondsSince(start_); }
     Outcome outcome() const {
@@ -207,6 +211,7 @@ class Run {
     Problem& problem_;
     DisplayUpdate& display_;
     const Callbacks& callbacks_;
+    LoopState& loop_;
     std::uint64_t& sequence_;
     double before_;
     Clock::time_point start_ = Clock::now();
@@ -229,6 +234,7 @@ Solver::~Solver() = default;
 
 void Solver::setOptions(const Options& options) {
     state_->problem.options = options;
+    state_->loop.hasChanged = true;
 }
 const Options& Solver::options() const {
     return state_->problem.options;
@@ -238,6 +244,15 @@ const Statistics& Solver::statistics() const {
 }
 const Problem& Solver::problem() const {
     return state_->problem;
+}
+base::NamedArrays Solver::checkpoint() const {
+    return saveState(state_->problem, state_->loop);
+}
+void Solver::restore(const base::NamedArrays& arrays, const std::string& file) {
+    restoreState(state_->problem, state_->loop, arrays, file);
+    if (state_->loop.gathered.size() != state_->probes.size()) {
+        throw base::FileError(file, "", "was measured at other points");
+    }
 }
 scene::LitMeshes Solver::litMeshes() const {
     return state_->display.refresh();
@@ -249,13 +264,13 @@ double Solver::estimateError() {
     State& state = *state_;
     const StageTimer timer(state.problem.statistics.times.audit);
     std::vector<Rgb> now = gatherProbes(state.problem, state.probes);
-    const bool isFirst = state.gathered.empty();
-    const double gatherError = isFirst ? 1.0 : kErrorOfChange * relativeRms(state.gathered, now);
-    state.gathered = std::move(now);
+    const bool isFirst = state.loop.gathered.empty();
+    const double gatherError = isFirst ? 1.0 : kErrorOfChange * relativeRms(state.loop.gathered, now);
+    state.loop.gathered = std::move(now);
     if (state.problem.options.errorOf == ErrorOf::gathered) {
         return gatherError;
     }
-    const double displayError = relativeRms(state.display.valuesAt(state.probes), state.gathered);
+    const double displayError = relativeRms(state.display.valuesAt(state.probes), state.loop.gathered);
     return std::sqrt(gatherError * gatherError + displayError * displayError);
 }
 
@@ -263,13 +278,13 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     State& state = *state_;
     Problem& problem = state.problem;
     Statistics& statistics = problem.statistics;
-    Run run(problem, state.display, callbacks, state.sequence);
-    if (!state.isStarted) {
-        state.isStarted = true;
-        state.ambient = estimateAmbient(problem);
-        seedRadiosity(problem, static_cast<float>(state.ambient));
-        statistics.meanIrradiance = state.ambient;
-        statistics.threshold = firstThreshold(problem.options.oracle, state.ambient) * kTighten;
+    Run run(problem, state.display, callbacks, state.loop, state.sequence);
+    if (!state.loop.isStarted) {
+        state.loop.isStarted = true;
+        state.loop.ambient = estimateAmbient(problem);
+        seedRadiosity(problem, static_cast<float>(state.loop.ambient));
+        statistics.meanIrradiance = state.loop.ambient;
+        statistics.threshold = firstThreshold(problem.options.oracle, state.loop.ambient) * kTighten;
     }
     const auto isStopped = [&run] { return run.isStopped(); };
     // Whether what was asked for holds already: then only the display changes.
@@ -277,22 +292,28 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         return problem.options.threshold > 0.0 ? statistics.threshold <= problem.options.threshold
                                                : statistics.estimatedError <= problem.options.error;
     };
-    const bool isEmpty = problem.hierarchy.patches().empty() || state.ambient <= 0.0;
-    for (bool isDone = isEmpty || (!statistics.history.empty() && isReached()); !isDone;) {
+    // Nothing left to split: the smallest elements bound the error.
+    const auto isExhausted = [&] {
+        return !state.loop.hasChanged && statistics.history.size() > 3 && problem.options.threshold <= 0.0 &&
+               statistics.threshold < 1e-9 * state.loop.ambient;
+    };
+    const bool isEmpty = problem.hierarchy.patches().empty() || state.loop.ambient <= 0.0;
+    for (bool isDone = isEmpty || (!statistics.history.empty() && (isReached() || isExhausted())); !isDone;) {
         statistics.threshold = std::max(statistics.threshold / kTighten, problem.options.threshold);
         problem.rowScale.clear();
         run.report("refining");
-        const bool changed = refineLinks(problem, statistics.threshold, isStopped);
+        state.loop.hasChanged = refineLinks(problem, statistics.threshold, isStopped);
         run.sweep(kSweepsPerLevel, 0.05 * problem.options.error);
         run.audit(kAuditRays);
         statistics.estimatedError = estimateError();
         statistics.history.push_back({run.seconds(), statistics.threshold, statistics.residual,
                                       statistics.estimatedError, statistics.counters.links});
+        if (callbacks.levelDone && !run.isCut()) {
+            statistics.times.total = run.seconds();
+            callbacks.levelDone();
+        }
         run.publish(false);
-        isDone = run.isStopped() || isReached();
-        // Nothing left to split: the smallest elements bound the error.
-        isDone = isDone || (!changed && statistics.history.size() > 3 && problem.options.threshold <= 0.0 &&
-                            statistics.threshold < 1e-9 * state.ambient);
+        isDone = run.isStopped() || isReached() || isExhausted();
     }
     if (problem.options.rowScaling) {
         problem.rowScale = computeRowScaling(problem);

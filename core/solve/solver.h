@@ -3,7 +3,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "core/base/named_arrays.h"
 #include "core/base/parallel.h"
 #include "core/scene/lit_mesh.h"
 #include "core/scene/scene.h"
@@ -34,6 +36,9 @@ struct Callbacks {
     std::function<bool()> shouldStop;
     /// Asked at wave boundaries; new options take effect there (error, oracle, threshold, minArea).
     std::function<std::optional<Options>()> newOptions;
+    /// Called after each level that was not cut short: Solver::checkpoint() then gives what the solve can go
+    /// on from to the same bits.
+    std::function<void()> levelDone;
     /// Progress in [0, 1] towards the requested error, with a short description of the stage.
     std::function<void(double, const char*)> progress;
 };
@@ -46,6 +51,13 @@ class Solver {
     /// Runs until the requested error, a limit or a stop. May be called again with other options: it goes on
     /// from where it is, or only shows the solution anew where they ask for no more than it has.
     Outcome solve(const Callbacks& callbacks);
+
+    /// The state as named arrays (checkpoint.h); for Callbacks::levelDone.
+    base::NamedArrays checkpoint() const;
+    /// Goes on from such a state, for a solver that was just made of the same scene; solve() then does what
+    /// it would have done next. The time limit counts from here. Throws base::FileError that names `file`,
+    /// where the arrays come from; the solver is then good for nothing.
+    void restore(const base::NamedArrays& arrays, const std::string& file);
 
     void setOptions(const Options& options);
     const Options& options() const;

@@ -7,6 +7,7 @@
 
 #include <CLI/App.hpp>
 
+#include "core/cli/checkpointing.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
 #include "core/io/image_write.h"
@@ -125,14 +126,21 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
 
 cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& window) {
     Exhibit exhibit;
-    exhibit.threads = arguments.solver.threads;
     Shown shown;
     if (isLit(arguments.scene.scene)) {
         shown = loadLit(arguments.scene.scene);
     } else {
+        const auto checkpointing = std::make_shared<cli::Checkpointing>(arguments.solver);
         shown.scene = std::make_shared<const scene::Scene>(cli::loadScene(arguments.scene));
         shown.solid = shown.scene;
-        exhibit.options = arguments.solver.options;
+        exhibit.options = checkpointing->options();
+        exhibit.solver.make = [checkpointing, scene = shown.scene,
+                               threads = arguments.solver.threads](const solve::Options& options) {
+            return checkpointing->makeSolver(scene, options, threads);
+        };
+        exhibit.solver.levelDone = [checkpointing](const solve::Solver& solver) {
+            checkpointing->keep(solver);
+        };
         if (!arguments.output.quiet) {
             for (const std::string& warning : shown.scene->warnings) {
                 cli::printWarning(warning);

@@ -89,8 +89,7 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit)
       now_(glfwGetTime()),
       floor_(exhibit.solid) {
     if (exhibit.options) {
-        session_.emplace(session::solveScene(exhibit.scene, exhibit.threads), *exhibit.options,
-                         [] { glfwPostEmptyEvent(); });
+        session_.emplace(session::solveWith(exhibit.solver), *exhibit.options, [] { glfwPostEmptyEvent(); });
     } else {
         renderer_.setMeshes(exhibit.meshes);
         automaticExposure_ = renderer_.automaticExposure();

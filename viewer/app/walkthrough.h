@@ -7,6 +7,7 @@
 #include "core/scene/scene.h"
 #include "core/solve/options.h"
 #include "viewer/gl/window_context.h"
+#include "viewer/session/solver_session.h"
 
 namespace fluxwalk::app {
 
@@ -20,7 +21,7 @@ struct Exhibit {
     std::shared_ptr<const scene::Scene> solid;
     /// How to solve; nothing for a lit file.
     std::optional<solve::Options> options;
-    unsigned threads = 0;
+    session::SolverSource solver;
 };
 
 /// Runs the window until it is closed. Where a scene is solved, the solver starts at once and is stopped at

@@ -2,17 +2,21 @@
 
 namespace fluxwalk::session {
 
-SolveFunction solveScene(std::shared_ptr<const scene::Scene> scene, unsigned threads) {
+SolveFunction solveWith(SolverSource source) {
     // Functions are copyable, the solver is not.
     auto solver = std::make_shared<std::unique_ptr<solve::Solver>>();
-    return [scene = std::move(scene), threads, solver](const solve::Options& options,
-                                                       const solve::Callbacks& callbacks) {
+    return [source = std::move(source), solver](const solve::Options& options,
+                                                const solve::Callbacks& callbacks) {
         if (*solver == nullptr) {
-            *solver = std::make_unique<solve::Solver>(scene, options, threads);
+            *solver = source.make(options);
         } else {
             (*solver)->setOptions(options);
         }
-        return (*solver)->solve(callbacks);
+        solve::Callbacks all = callbacks;
+        if (source.levelDone) {
+            all.levelDone = [&] { source.levelDone(**solver); };
+        }
+        return (*solver)->solve(all);
     };
 }
 

@@ -17,8 +17,14 @@ namespace fluxwalk::session {
 /// Solves with the given options until done or stopped; called again to go on. Runs on the session's thread.
 using SolveFunction = std::function<solve::Outcome(const solve::Options&, const solve::Callbacks&)>;
 
+/// Where its Solver comes from, and who is told of each finished level (may be empty).
+struct SolverSource {
+    std::function<std::unique_ptr<solve::Solver>(const solve::Options&)> make;
+    std::function<void(const solve::Solver&)> levelDone;
+};
+
 /// Makes its Solver on the first call and keeps it for the next ones.
-SolveFunction solveScene(std::shared_ptr<const scene::Scene> scene, unsigned threads);
+SolveFunction solveWith(SolverSource source);
 
 enum class Phase : std::uint8_t {
     solving,
