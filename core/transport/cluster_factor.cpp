@@ -20,8 +20,8 @@ FLUXWALK_INLINE Lanes3 splatLane(const Lanes3& v, int lane) {
     return {splat(v.x[lane]), splat(v.y[lane]), splat(v.z[lane])};
 }
 
-// Adds what the points of b, of `areaB` m2 each, send to eight points. A point stands for a disc, so that
-// near ones stay finite (cubatureFactor in form_factor.cpp).
+// What eight points see of the points of b. A point stands for a disc, so that near ones stay finite
+// (cubatureFactor in form_factor.cpp); all together fill no more than the hemisphere.
 FLUXWALK_INLINE Lanes receive(const Lanes3& x, const Lanes3& n, const ClusterPoints& b) {
     Lanes sum = splat(0.0);
     for (unsigned j = 0; j < kClusterPoints; ++j) {
@@ -34,7 +34,7 @@ FLUXWALK_INLINE Lanes receive(const Lanes3& x, const Lanes3& n, const ClusterPoi
         const Lanes facing = base::maxLanes(dot(n, to), splat(0.0)) * base::maxLanes(-dot(m, to), splat(0.0));
         sum += area * facing / base::maxLanes(base::kPi * r2 * r2 + area * facing, splat(1e-300));
     }
-    return sum;
+    return base::minLanes(sum, splat(1.0));
 }
 
 struct BothClusters {
@@ -104,15 +104,17 @@ Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, c
     return r;
 }
 
-// The points are few: the sums over all patches are better known.
-double correct(const hierarchy::Hierarchy& h, NodeId cluster, const hierarchy::Shape& other,
-               const Received& received) {
+// How much the sum of the shares of all patches differs from what the few points say of it.
+double correct(double shares, const Received& received) {
     constexpr double kMost = 4.0;
-    if (!(received.shares > 0.0)) {
-        return 1.0;
-    }
-    const auto shares = static_cast<double>(sumShares(h, cluster, other));
-    return std::clamp(shares / received.shares, 1.0 / kMost, kMost);
+    return received.shares > 0.0 ? std::clamp(shares / received.shares, 1.0 / kMost, kMost) : 1.0;
+}
+
+// Coupling with which every patch would see the whole ball about the other end glow: no more can arrive.
+// Without this limit, few points in a crowd of patches could let them light each other up without end.
+double limitOf(double shares, const hierarchy::Shape& other) {
+    const auto radius = static_cast<double>(other.radius);
+    return shares * radius * radius;
 }
 
 PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
@@ -121,10 +123,12 @@ PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     const BothClusters both = hasAvx2() ? exchangeAvx2(pointsA, pointsB) : exchangeBaseline(pointsA, pointsB);
     const Received atA = summarize(h, pointsA, both.atA, h.shape(b));
     const Received atB = summarize(h, pointsB, both.atB, h.shape(a));
+    const auto sharesA = static_cast<double>(sumShares(h, a, h.shape(b)));
+    const auto sharesB = static_cast<double>(sumShares(h, b, h.shape(a)));
     PairFactor result;
     result.evaluations = 2 * kClusterPoints * kClusterPoints;
-    result.coupling =
-        0.5 * (atA.power + atB.power) * correct(h, a, h.shape(b), atA) * correct(h, b, h.shape(a), atB);
+    result.coupling = std::min({0.5 * (atA.power + atB.power) * correct(sharesA, atA) * correct(sharesB, atB),
+                                limitOf(sharesA, h.shape(b)), limitOf(sharesB, h.shape(a))});
     result.spreadA = atA.spread;
     result.spreadB = atB.spread;
     return result;
@@ -143,8 +147,10 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
     if (!(received.power > 0.0)) {
         return result;
     }
-    result.coupling = received.power * correct(h, cluster, h.shape(element), received) *
-                      static_cast<double>(h.shape(element).exposed);
+    const auto shares = static_cast<double>(sumShares(h, cluster, h.shape(element)));
+    result.coupling =
+        std::min(received.power * correct(shares, received) * static_cast<double>(h.shape(element).exposed),
+                 limitOf(shares, h.shape(element)));
     result.spreadA = received.spread;
     const Lanes atElement =
         hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);

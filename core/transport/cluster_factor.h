@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/transport/form_factor.h"
@@ -10,7 +11,8 @@
 namespace fluxwalk::transport {
 
 /// Share of a patch with mean normal `axis` at `position`, in 1/m2: the cosine towards a ball, for balls that
-/// cross the patch's horizon the smooth mean of the visible part, over the squared distance.
+/// cross the patch's horizon the smooth mean of the visible part, over the squared distance from its centre,
+/// within the ball over that of its surface.
 inline float patchShare(const base::Vec3& position, const base::Vec3& axis, const base::Vec3& center,
                         float radius) {
     const base::Vec3 d = center - position;
@@ -25,7 +27,7 @@ inline float patchShare(const base::Vec3& position, const base::Vec3& axis, cons
         return 0.0f;
     }
     const float lit = cosine >= s ? cosine : (cosine + s) * (cosine + s) / (4.0f * s);
-    return lit / r2;
+    return lit / std::max(r2, radius * radius);
 }
 inline float patchShare(const hierarchy::Shape& patch, const hierarchy::Shape& other) {
     return patchShare(patch.center, patch.axis, other.center, other.radius);
@@ -36,7 +38,8 @@ float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, const hie
 
 /// Unoccluded exchange of a pair of which at least one is a cluster, from 32 points of each cluster; an
 /// element's factor is exact at these. Spreads of clusters: twice the mean deviation from the shares of the
-/// patches, relative to the mean. Coupling 0: no point sees another, which proves nothing.
+/// patches, relative to the mean. Coupling 0: no point sees another, which proves nothing. No patch
+/// gets more than the ball about the other end could send it.
 PairFactor computeClusterFactor(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b);
 
 }  // namespace fluxwalk::transport

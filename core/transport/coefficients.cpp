@@ -138,9 +138,7 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
     if (out.coupling <= 0.0f) {
         return out;
     }
-    const RayEffort effort = query.isMinor  ? RayEffort::first
-                             : query.isEdge ? RayEffort::second
-                                            : RayEffort::staged;
+    const RayEffort effort = query.isMinor ? RayEffort::few : RayEffort::all;
     const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, effort);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
@@ -194,8 +192,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
             break;
     }
     const VisibilitySample seen =
-        sampleVisibility(hierarchy_, rays_, query.a, query.b,
-                         query.isEdge ? RayEffort::second : RayEffort::staged, out.coupling);
+        sampleVisibility(hierarchy_, rays_, query.a, query.b, RayEffort::all, out.coupling);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);

@@ -147,11 +147,11 @@ class EndSampler {
 Stage castPairs(const rays::RayScene& rays, const EndSampler& a, const EndSampler& b, unsigned side,
                 std::uint64_t key) {
     const unsigned count = side * side;
-    std::array<rays::Ray, kSecondRays> bundle;
-    std::array<double, kSecondRays> weights{};
-    std::array<base::Vec2d, kSecondRays> localA;
-    std::array<base::Vec2d, kSecondRays> localB;
-    std::array<std::uint8_t, kSecondRays> blocked{};
+    std::array<rays::Ray, kAllRays> bundle;
+    std::array<double, kAllRays> weights{};
+    std::array<base::Vec2d, kAllRays> localA;
+    std::array<base::Vec2d, kAllRays> localB;
+    std::array<std::uint8_t, kAllRays> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < count; ++i) {
@@ -200,14 +200,10 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const std::uint64_t key = base::combine(keyA, keyB);
     const EndSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
     const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
-    const bool isEdge = effort == RayEffort::second;
-    Stage stage = castPairs(rays, onA, onB, isEdge ? 8 : 4, key);
+    const bool areAll = effort == RayEffort::all;
+    Stage stage = castPairs(rays, onA, onB, areAll ? 8 : 4, key);
     VisibilitySample sample = toSample(stage);
-    if (sample.isMixed && effort != RayEffort::first) {
-        const unsigned firstRays = stage.count;
-        if (!isEdge) {
-            stage = castPairs(rays, onA, onB, 8, base::mix(key));
-        }
+    if (sample.isMixed && areAll) {
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
         const float distance = glm::distance(shapeA.center, shapeB.center);
@@ -220,7 +216,7 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         }
         sample = toSample(stage);
         sample.isMixed = true;
-        unsigned count = stage.count + (isEdge ? 0 : firstRays);
+        unsigned count = stage.count;
         const float least = std::min(shapeA.exposedArea(), shapeB.exposedArea());
         if (distance < reach && shapeA.isPlanar && shapeB.isPlanar && coupling > kContactFactor * least) {
             const ContactSample contact = sampleContact(hierarchy, rays, a, b, key);
@@ -245,11 +241,11 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
     const ElementSampler sampler(hierarchy, element, base::toUnit(base::mix(key)));
     const bool isSky = hierarchy.kind(source) == hierarchy::NodeKind::sky;
     const unsigned side = 8;
-    std::array<rays::Ray, kSecondRays> bundle;
-    std::array<double, kSecondRays> weights{};
-    std::array<unsigned, kSecondRays> quarters{};
-    std::array<base::Vec2d, kSecondRays> locals;
-    std::array<std::uint8_t, kSecondRays> blocked{};
+    std::array<rays::Ray, kAllRays> bundle;
+    std::array<double, kAllRays> weights{};
+    std::array<unsigned, kAllRays> quarters{};
+    std::array<base::Vec2d, kAllRays> locals;
+    std::array<std::uint8_t, kAllRays> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < side * side; ++i) {

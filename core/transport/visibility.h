@@ -21,12 +21,12 @@ struct VisibilitySample {
     bool isMixed = false;  ///< some were blocked and some were not
 };
 
-/// Rays of the two stages: all alike after the first ends it, otherwise the second decides.
-inline constexpr unsigned kFirstRays = 16;
-inline constexpr unsigned kSecondRays = 64;
+/// Rays of a pair, and of one that matters little. Of those between clusters many face away and are not cast.
+inline constexpr unsigned kAllRays = 64;
+inline constexpr unsigned kFewRays = 16;
 /// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
-/// if they see each other partly, the second stage is repeated. They are few. (Furnace of check 7: row sums
-/// within 1.5 to 3 %, 99 % of them within .8 % instead of 1.1 %, for 3 % more rays.)
+/// if they see each other partly, as many rays are cast again and again. They are few. (Furnace of check 7:
+/// row sums within 1.5 to 3 %, 99 % of them within .8 % instead of 1.1 %, for 3 % more rays.)
 inline constexpr float kNearPair = 1.5f;
 inline constexpr unsigned kNearRounds = 16;
 /// Where the bounding spheres of planar elements overlap and this part of the smaller one's light meets the
@@ -34,24 +34,21 @@ inline constexpr unsigned kNearRounds = 16;
 inline constexpr float kContactFactor = 0.01f;
 
 /// How many rays a pair gets.
-enum class RayEffort : std::uint8_t {
-    staged,  ///< the second stage only where the first one's rays differ
-    second,  ///< all of the second stage at once
-    first    ///< the first stage alone
-};
+enum class RayEffort : std::uint8_t { all, few };
 
 /// Between two elements or clusters: stratified on both, every stratum of each used once, kernel-weighted.
 /// Keyed by the names of the pair, so the same for (a, b) and (b, a).
 ///
-/// Pairs below a partly blocked one take the second stage at once: a first stage of few rays would too often
-/// take a thin beam or a thin shadow for none. Which pairs were partly blocked depends on the rays that said
-/// so, and what is refined once is not refined back: light would be lost through every opening (room behind
-/// one: 1.4 % at 50,000 links without, .2 % with, for 5 % more time on the Cornell box).
+/// There is no first stage of few rays that decides whether more are needed: it would take many a thin beam
+/// or thin shadow for none, and what is taken for simple is not looked at again, so that light would be lost
+/// through every opening and gained behind every small thing. (Room behind an opening: 1.4 % lost at 50,000
+/// links. Cloud of 1,000 triangles in a closed room: 1.3 % too much in the balance, .2 % without the stage,
+/// for 3 % more rays in furnished rooms.)
 ///
 /// `coupling`: the unoccluded one in m2, 0 where it is not known: planar elements that touch and exchange
 /// much are looked at more closely (contact_visibility.h).
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b, RayEffort effort = RayEffort::staged, float coupling = 0.0f);
+                                  NodeId b, RayEffort effort = RayEffort::all, float coupling = 0.0f);
 
 /// Between an element and a light source without area, or the sky.
 VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
