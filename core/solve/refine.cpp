@@ -298,10 +298,12 @@ class Refinement {
              isBehind(b, a, tolerance_))) {
             return d;
         }
-        // Light sources without area stay with single patches.
+        // Light sources without area stay with single patches, and nothing is shared through a closed wall.
         const bool areSurfaces = a.area > 0.0f && b.area > 0.0f;
         const bool isMinor = areSurfaces && isMinorPair(pair.a, pair.b);
-        if (!problem_.options.clusterLinks || !areSurfaces || (!isMinor && !areApart(pair.a, pair.b))) {
+        const bool areInRooms = hierarchy_.isInOneRoom(pair.a) && hierarchy_.isInOneRoom(pair.b);
+        if (!problem_.options.clusterLinks || !areSurfaces || !areInRooms ||
+            (!isMinor && !areApart(pair.a, pair.b))) {
             d.verdict = splitCluster(pair.a, pair.b);
             return d;
         }
