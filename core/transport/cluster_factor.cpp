@@ -117,6 +117,9 @@ double limitOf(double shares, const hierarchy::Shape& other) {
     return shares * radius * radius;
 }
 
+// What the points of a cluster leave unknown of the coupling itself, of their spread: two standard errors.
+constexpr double kUnknown = 0.2;
+
 PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     const ClusterPoints pointsA = makeClusterPoints(h, a);
     const ClusterPoints pointsB = makeClusterPoints(h, b);
@@ -129,8 +132,8 @@ PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     result.evaluations = 2 * kClusterPoints * kClusterPoints;
     result.coupling = std::min({0.5 * (atA.power + atB.power) * correct(sharesA, atA) * correct(sharesB, atB),
                                 limitOf(sharesA, h.shape(b)), limitOf(sharesB, h.shape(a))});
-    result.spreadA = atA.spread;
-    result.spreadB = atB.spread;
+    result.spreadA = atA.spread + kUnknown * atB.spread;
+    result.spreadB = atB.spread + kUnknown * atA.spread;
     return result;
 }
 
@@ -163,7 +166,7 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
     const LinearFit fit = fitLinear(e, seen, mean);
     if (mean > 0.0) {
         result.gradientB = fit.gradient;
-        result.spreadB = fit.deviation / mean;
+        result.spreadB = fit.deviation / mean + kUnknown * received.spread;
     } else {
         result.spreadB = 2.0;
     }

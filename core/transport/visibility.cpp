@@ -202,6 +202,11 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
     const bool areAll = effort == RayEffort::all;
     Stage stage = castPairs(rays, onA, onB, areAll ? 8 : 4, key);
+    const bool isWithCluster = hierarchy.shape(a).cornerCount == 0 || hierarchy.shape(b).cornerCount == 0;
+    for (unsigned round = 1; areAll && isWithCluster && stage.count < kAllRays / 2 && round < kFacingRounds;
+         ++round) {
+        stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
+    }
     VisibilitySample sample = toSample(stage);
     if (sample.isMixed && areAll) {
         const hierarchy::Shape& shapeA = hierarchy.shape(a);

@@ -21,8 +21,10 @@ struct VisibilitySample {
     bool isMixed = false;  ///< some were blocked and some were not
 };
 
-/// Rays of a pair, and of one that matters little. Of those between clusters many face away and are not cast.
+/// Rays of a pair, and of one that matters little. Of those between clusters many face away and are not cast:
+/// where less than half are left, others are drawn, this many times at most in all.
 inline constexpr unsigned kAllRays = 64;
+inline constexpr unsigned kFacingRounds = 4;
 inline constexpr unsigned kFewRays = 16;
 /// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
 /// if they see each other partly, as many rays are cast again and again. They are few. (Furnace of check 7:

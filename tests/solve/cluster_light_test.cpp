@@ -154,11 +154,9 @@ namespace {
 
 void expectSolved(scene::Scene scene) {
     solve::Options options;
-    options.error = .1;
-    options.timeLimit = 10.0;
+    options.threshold = .5;
     solve::Solver solver(std::make_shared<const scene::Scene>(std::move(scene)), options, 2);
-    const solve::Outcome outcome = solver.solve({});
-    EXPECT_TRUE(outcome == solve::Outcome::reachedError || outcome == solve::Outcome::reachedTimeLimit);
+    EXPECT_EQ(solver.solve({}), solve::Outcome::reachedError);
     const hierarchy::Hierarchy& h = solver.problem().hierarchy;
     for (const NodeId id : h.patches()) {
         const Rgb e = h.light(id).irradiance;
@@ -183,7 +181,7 @@ TEST(ClusterHardScenes, onePolygonAMillionTimesLarger) {
 }
 
 TEST(ClusterHardScenes, coincidentPolygons) {
-    expectSolved(test::buildCoincident(1000));
+    expectSolved(test::buildCoincident(2000));
 }
 
 }  // namespace fluxwalk

@@ -82,9 +82,10 @@ TEST(ClusterPoints, lieEvenlyOnCurvedPatches) {
 // Inside a patch too: a floor of 1 m2, of which a box hides the middle quarter.
 TEST(ClusterPoints, lieOnExposedPartsOnly) {
     scene::Scene scene;
-    const std::uint32_t grey = scene::addMaterial(scene, "grey", base::Rgb(.5f), base::Rgb(1.0f));
+    const std::uint32_t grey = scene::addMaterial(scene, "grey", base::Rgb(.5f));
+    const std::uint32_t glow = scene::addMaterial(scene, "glow", base::Rgb(.5f), base::Rgb(1.0f));
     scene::addPolygons(scene, "floor", grey, scene::boxFaces({0, 0, 0}, {1, 0, 1}, scene::kTop));
-    scene::addPolygons(scene, "box", grey,
+    scene::addPolygons(scene, "box", glow,
                        scene::boxFaces({.25, -.2, .25}, {.75, .5, .75}, scene::kAllFaces));
     const Built built(std::move(scene));
     const transport::ClusterSampler sampler(built.tree, built.tree.root());
