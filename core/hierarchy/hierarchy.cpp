@@ -328,6 +328,21 @@ void Hierarchy::shapeClusters() {
     }
 }
 
+void Hierarchy::assignRooms() {
+    room_.assign(patchRange_.size(), kNoRoom);
+    for (const NodeId id : patches_) {
+        room_[index(id)] =
+            reached_.rooms[static_cast<std::size_t>(object_[index(id)]) * 2 + (patchSide_[index(id)] & 1u)];
+    }
+    // Children follow their parents.
+    for (std::size_t i = patchRange_.size(); i-- > 0;) {
+        if (kind_[i] == NodeKind::cluster) {
+            const std::size_t child = index(firstChild_[i]);
+            room_[i] = room_[child] == room_[child + 1] ? room_[child] : kNoRoom;
+        }
+    }
+}
+
 ElementName Hierarchy::name(NodeId id) const {
     const std::size_t i = index(id);
     return {object_[i], patchSide_[i] / 2, (patchSide_[i] & 1u) != 0, path_[i]};

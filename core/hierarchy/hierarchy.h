@@ -123,6 +123,9 @@ class Hierarchy {
     double exposedAreaBefore(std::size_t count) const { return areaBefore_[count]; }
     /// Box about a cluster or patch.
     const Extent& extent(NodeId id) const { return extent_[index(id)]; }
+    /// Whether walks of light joined all that is below an element or cluster (ReachedSides::rooms): otherwise
+    /// closed walls may lie between them.
+    bool isInOneRoom(NodeId id) const { return kind(id) != NodeKind::cluster || room_[index(id)] != kNoRoom; }
     /// Light sources without area, and the sky.
     std::span<const NodeId> sources() const { return sources_; }
     /// Patch node of a patch and side, or NodeId::none where light does not reach it.
@@ -151,6 +154,7 @@ class Hierarchy {
     void refreshExposure(NodeId id);
     void shapePatches(const base::Executor& executor);
     void shapeClusters();
+    void assignRooms();
     void orderPatches();
     void tabulatePatches();
     void sumAreas();
@@ -178,6 +182,8 @@ class Hierarchy {
     std::vector<double> areaBefore_;
     PatchTable patchTable_;
     std::vector<Extent> extent_;  ///< of clusters and patches
+    static constexpr std::uint32_t kNoRoom = 0xffffffffu;
+    std::vector<std::uint32_t> room_;  ///< of clusters and patches; kNoRoom: of several
     std::vector<NodeId> sources_;
     std::vector<std::array<NodeId, 2>> patchNodes_;  ///< by shaft item: front, back
     NodeId root_ = NodeId::none;

@@ -1,7 +1,11 @@
 #include "core/hierarchy/reach.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
+#include <numeric>
+#include <span>
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
@@ -136,21 +140,34 @@ class Explorer {
     std::vector<std::uint32_t> emitters_;
 };
 
-/// Sides met by light, as object * 2 + back, and whether any left the scene.
+std::uint32_t sideOf(std::uint32_t object, bool back) {
+    return object * 2 + (back ? 1u : 0u);
+}
+
+/// Steps of light from side to side, as object * 2 + back (lights without area stand behind all sides), and
+/// whether any left the scene.
 struct Found {
-    std::vector<std::uint32_t> sides;
+    std::vector<std::array<std::uint32_t, 2>> steps;
     bool escaped = false;
+
+    void sortSteps() {
+        std::sort(steps.begin(), steps.end());
+        steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    }
 };
 
-// Light that goes from a stand, bouncing off whatever it meets.
-void follow(const Explorer& explorer, Stand at, Vec3d direction, base::RandomStream& random, Found& found) {
+// Light that goes from a stand on side `from`, bouncing off whatever it meets.
+void follow(const Explorer& explorer, std::uint32_t from, Stand at, Vec3d direction,
+            base::RandomStream& random, Found& found) {
     for (unsigned bounce = 0; bounce < kMaxBounces; ++bounce) {
         const Explorer::Step step = explorer.step(at, direction);
         if (step.escaped) {
             found.escaped = true;
             return;
         }
-        found.sides.push_back(step.object * 2 + (step.back ? 1u : 0u));
+        const std::uint32_t to = sideOf(step.object, step.back);
+        found.steps.push_back({from, to});
+        from = to;
         at = step.at;
         direction = cosineDirection(at.normal, random.next2());
     }
@@ -162,10 +179,11 @@ bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t ob
     base::RandomStream random(key);
     for (unsigned walk = 0; walk < walks; ++walk) {
         Stand at = explorer.stand(object, back, walk, walks, random);
+        std::uint32_t from = sideOf(object, back);
         for (unsigned bounce = 0; bounce < kMaxBounces; ++bounce) {
             if (explorer.seesEmitter(at, random)) {
                 for (unsigned onward = 0; onward < kOnwardWalks && !found.escaped; ++onward) {
-                    follow(explorer, at, cosineDirection(at.normal, random.next2()), random, found);
+                    follow(explorer, from, at, cosineDirection(at.normal, random.next2()), random, found);
                 }
                 return true;
             }
@@ -177,6 +195,9 @@ bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t ob
                 }
                 break;
             }
+            const std::uint32_t to = sideOf(step.object, step.back);
+            found.steps.push_back({from, to});
+            from = to;
             if (explorer.emits(step.object, step.back)) {
                 return true;
             }
@@ -184,6 +205,31 @@ bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t ob
         }
     }
     return false;
+}
+
+// Sides that steps join, directly or through others, get the same number.
+std::vector<std::uint32_t> findRooms(std::size_t sideCount, std::size_t sourceCount,
+                                     std::initializer_list<std::span<const Found>> walks) {
+    std::vector<std::uint32_t> above(sideCount + sourceCount);
+    std::iota(above.begin(), above.end(), 0u);
+    const auto top = [&above](std::uint32_t i) {
+        while (above[i] != i) {
+            i = above[i] = above[above[i]];
+        }
+        return i;
+    };
+    for (const std::span<const Found> some : walks) {
+        for (const Found& found : some) {
+            for (const auto& [from, to] : found.steps) {
+                above[top(from)] = top(to);
+            }
+        }
+    }
+    std::vector<std::uint32_t> rooms(sideCount);
+    for (std::uint32_t side = 0; side < sideCount; ++side) {
+        rooms[side] = top(side);
+    }
+    return rooms;
 }
 
 /// Where light begins, to be looked up by place.
@@ -248,9 +294,10 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
             for (unsigned walk = 0; walk < walks; ++walk) {
                 if (s < explorer.emitters().size()) {
                     const std::uint32_t object = explorer.emitters()[s];
-                    const Stand at = explorer.stand(object, explorer.emits(object, true) && walk % 2 == 1,
-                                                    walk, walks, random);
-                    follow(explorer, at, cosineDirection(at.normal, random.next2()), random, forward[s]);
+                    const bool back = explorer.emits(object, true) && walk % 2 == 1;
+                    const Stand at = explorer.stand(object, back, walk, walks, random);
+                    follow(explorer, sideOf(object, back), at, cosineDirection(at.normal, random.next2()),
+                           random, forward[s]);
                 } else if (scene.lights[s - explorer.emitters().size()].kind !=
                            scene::LightKind::directional) {
                     const scene::Light& light = scene.lights[s - explorer.emitters().size()];
@@ -260,18 +307,20 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
                     const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
                     const base::Rgb there = scene::intensityToward(light, direction);
                     if (there != base::Rgb(0.0f)) {
-                        follow(explorer, {light.position, Vec3d(0.0)}, direction, random, forward[s]);
+                        const auto from = static_cast<std::uint32_t>(sideCount + s);
+                        follow(explorer, from, {light.position, Vec3d(0.0)}, direction, random, forward[s]);
                     }
                 }
             }
+            forward[s].sortSteps();
         }
     });
     ReachedSides result;
     result.sides.assign(scene.objects.size(), {false, false});
     for (const Found& found : forward) {
         result.isOpen = result.isOpen || found.escaped;
-        for (const std::uint32_t side : found.sides) {
-            result.sides[side / 2][side % 2] = true;
+        for (const auto& [from, to] : found.steps) {
+            result.sides[to / 2][to % 2] = true;
         }
     }
     const EmitterPlaces places(scene, explorer, executor);
@@ -291,6 +340,7 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
                                 isLit(scene, explorer, object, back, isInside ? kInsideWalks : kBackwardWalks,
                                       base::combine(seed + 1, s), backward[s]);
                 lit[s] = is ? 1 : 0;
+                backward[s].sortSteps();
             }
         }
     });
@@ -298,6 +348,7 @@ ReachedSides findReachedSides(const scene::Scene& scene, const rays::RayScene& r
         result.sides[s / 2][s % 2] = result.sides[s / 2][s % 2] || lit[s] != 0;
         result.isOpen = result.isOpen || backward[s].escaped;
     }
+    result.rooms = findRooms(sideCount, sourceCount, {forward, backward});
     result.firstPatch.push_back(0);
     for (const scene::Object& object : scene.objects) {
         result.firstPatch.push_back(result.firstPatch.back() + object.surface->patchCount());

@@ -16,6 +16,9 @@ struct ReachedSides {
     /// Where the patches of each object begin in `buried`, and their number at the end.
     std::vector<std::size_t> firstPatch;
     std::vector<std::uint8_t> buried;  ///< of each patch: bit 0 its front, bit 1 its back
+    /// Of each side, at object * 2 + (back ? 1 : 0): sides between which walks went have the same number.
+    /// Different ones may be sealed off from each other, though they lie on the two sides of one wall.
+    std::vector<std::uint32_t> rooms;
     /// Whether any of that light left the scene: false means that the scene is closed.
     bool isOpen = false;
 

@@ -41,14 +41,15 @@ float visibilityUpper(const Link& link, NodeKind kindB, bool isMixed) {
     }
     const bool isWell = isMixed || kindB == NodeKind::light || kindB == NodeKind::sky;
     return transport::visibilityUpperBound(link.visibility(),
-                                           isWell ? transport::kSecondRays : transport::kFirstRays);
+                                           isWell ? transport::kAllRays : transport::kFewRays);
 }
 
-}  // namespace
-
+// Whether rays were blocked and rays passed.
 bool isPartlyBlocked(const Link& link) {
     return !link.isOpen() && link.visibility() > 0.0f && link.visibility() < 1.0f;
 }
+
+}  // namespace
 
 transport::LinkAssessment assessLink(const Problem& problem, const Link& link, float enough) {
     const Hierarchy& h = problem.hierarchy;

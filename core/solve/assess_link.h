@@ -6,9 +6,6 @@
 
 namespace fluxwalk::solve {
 
-/// Whether rays were blocked and rays passed.
-bool isPartlyBlocked(const hierarchy::Link& link);
-
 /// The oracle's judgement of a link between two different nodes, from what the link keeps and the radiosities
 /// that stand: a new pair and a standing link are judged alike. Where samples alone already say more than
 /// `enough` (lux), strict bounds are spared.

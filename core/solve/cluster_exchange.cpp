@@ -69,7 +69,17 @@ const ClusterExchange::View& ClusterExchange::viewFrom(std::size_t link, NodeId 
 Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
     const Hierarchy& h = problem_.hierarchy;
     if (h.kind(id) != NodeKind::cluster) {
-        return (isUniform_ ? Rgb(1.0f) : h.light(id).radiosity) * scaleOf(id);
+        if (isUniform_) {
+            return Rgb(scaleOf(id));
+        }
+        // The kernel meets more of an element's light where both are larger, as in Sweeper::gather().
+        const Link& l = problem_.links.links[link];
+        const base::Vec2 there = (l.a == id ? l.gradientA : l.gradientB).decode();
+        const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(id).cornerCount);
+        const hierarchy::Light& light = h.light(id);
+        const float s = frame.xx * there.x + frame.xy * there.y;
+        const float t = frame.xy * there.x + frame.yy * there.y;
+        return (light.radiosity + light.slopeS * s + light.slopeT * t) * scaleOf(id);
     }
     const View& view = viewFrom(link, id);
     const hierarchy::PatchTable& table = h.patchTable();

@@ -15,7 +15,7 @@ class ClusterExchange {
     ClusterExchange(const Problem& problem, const std::vector<float>& scale, bool isUniform = false);
 
     /// Radiosity that end `id` of a link shows to its other end, lm/m2: of clusters the mean by their
-    /// patches' shares; of elements, whose slopes are not seen here, their own.
+    /// patches' shares, of elements the mean by the link's linear kernel.
     Rgb shownBy(std::size_t link, NodeId id) const;
 
     /// Irradiance in lux that the links of all clusters above patches[begin, end) bring to them: out[i] is

@@ -73,7 +73,7 @@ class Refinement {
     // Pairs that start the first refinement.
     std::vector<Query> fromRoot() const {
         const NodeId root = hierarchy_.root();
-        return root == NodeId::none ? std::vector<Query>{} : std::vector<Query>{{root, root, false}};
+        return root == NodeId::none ? std::vector<Query>{} : std::vector<Query>{{root, root}};
     }
 
     // Takes the links whose error has become too large out of the store and returns what they split into.
@@ -305,10 +305,12 @@ class Refinement {
              isBehind(b, a, tolerance_))) {
             return d;
         }
-        // Light sources without area stay with single patches.
+        // Light sources without area stay with single patches, and nothing is shared through a closed wall.
         const bool areSurfaces = a.area > 0.0f && b.area > 0.0f;
         const bool isMinor = areSurfaces && isMinorPair(pair.a, pair.b);
-        if (!problem_.options.clusterLinks || !areSurfaces || (!isMinor && !areApart(pair.a, pair.b))) {
+        const bool areInRooms = hierarchy_.isInOneRoom(pair.a) && hierarchy_.isInOneRoom(pair.b);
+        if (!problem_.options.clusterLinks || !areSurfaces || !areInRooms ||
+            (!isMinor && !areApart(pair.a, pair.b))) {
             d.verdict = splitCluster(pair.a, pair.b);
             return d;
         }
@@ -369,12 +371,11 @@ class Refinement {
             const NodeId a = d.link.a;
             const NodeId b = d.link.b;
             const bool open = d.link.isOpen();
-            const bool edge = isPartlyBlocked(d.link);
             if (d.verdict == Verdict::splitSelf) {
                 const unsigned n = hierarchy_.childCount(a);
                 for (unsigned i = 0; i < n; ++i) {
                     for (unsigned j = i; j < n; ++j) {
-                        next.push_back(ordered(hierarchy_.child(a, i), hierarchy_.child(a, j), open, edge));
+                        next.push_back(ordered(hierarchy_.child(a, i), hierarchy_.child(a, j), open));
                     }
                 }
                 continue;
@@ -382,7 +383,7 @@ class Refinement {
             const NodeId from = d.verdict == Verdict::splitA ? a : b;
             const NodeId other = d.verdict == Verdict::splitA ? b : a;
             for (unsigned i = 0; i < hierarchy_.childCount(from); ++i) {
-                next.push_back(ordered(hierarchy_.child(from, i), other, open, edge));
+                next.push_back(ordered(hierarchy_.child(from, i), other, open));
             }
         }
         return next;
@@ -390,13 +391,13 @@ class Refinement {
 
     // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it
     // was reached.
-    Query ordered(NodeId a, NodeId b, bool open, bool edge) const {
+    Query ordered(NodeId a, NodeId b, bool open) const {
         const bool sourceA = isSource(a);
         const bool sourceB = isSource(b);
         if (sourceA != sourceB) {
-            return sourceA ? Query{b, a, open, edge} : Query{a, b, open, edge};
+            return sourceA ? Query{b, a, open} : Query{a, b, open};
         }
-        return hierarchy_.key(a) <= hierarchy_.key(b) ? Query{a, b, open, edge} : Query{b, a, open, edge};
+        return hierarchy_.key(a) <= hierarchy_.key(b) ? Query{a, b, open} : Query{b, a, open};
     }
 
     Problem& problem_;

@@ -11,14 +11,13 @@ namespace fluxwalk::transport {
 
 using base::NodeId;
 
-/// A pair whose coefficient is asked for. `isOpen`: a pair above it was found with an empty shaft. `isEdge`:
-/// the pair above it was partly blocked, so that this one may well be too. `isMinor`: clusters of which all
+/// A pair whose coefficient is asked for. `isOpen`: a pair above it was found with an empty shaft.
+/// `isMinor`: clusters of which all
 /// that they could exchange matters little: few rays will do.
 struct Query {
     NodeId a{};
     NodeId b{};
     bool isOpen = false;
-    bool isEdge = false;
     bool isMinor = false;
 };
 

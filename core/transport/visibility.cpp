@@ -146,11 +146,11 @@ class EndSampler {
 Stage castPairs(const rays::RayScene& rays, const EndSampler& a, const EndSampler& b, unsigned side,
                 std::uint64_t key) {
     const unsigned count = side * side;
-    std::array<rays::Ray, kSecondRays> bundle;
-    std::array<double, kSecondRays> weights{};
-    std::array<base::Vec2d, kSecondRays> localA;
-    std::array<base::Vec2d, kSecondRays> localB;
-    std::array<std::uint8_t, kSecondRays> blocked{};
+    std::array<rays::Ray, kAllRays> bundle;
+    std::array<double, kAllRays> weights{};
+    std::array<base::Vec2d, kAllRays> localA;
+    std::array<base::Vec2d, kAllRays> localB;
+    std::array<std::uint8_t, kAllRays> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < count; ++i) {
@@ -199,14 +199,15 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const std::uint64_t key = base::combine(keyA, keyB);
     const EndSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
     const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
-    const bool isEdge = effort == RayEffort::second;
-    Stage stage = castPairs(rays, onA, onB, isEdge ? 8 : 4, key);
+    const bool areAll = effort == RayEffort::all;
+    Stage stage = castPairs(rays, onA, onB, areAll ? 8 : 4, key);
+    const bool isWithCluster = hierarchy.shape(a).cornerCount == 0 || hierarchy.shape(b).cornerCount == 0;
+    for (unsigned round = 1; areAll && isWithCluster && stage.count < kAllRays / 2 && round < kFacingRounds;
+         ++round) {
+        stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
+    }
     VisibilitySample sample = toSample(stage);
-    if (sample.isMixed && effort != RayEffort::first) {
-        const unsigned firstRays = stage.count;
-        if (!isEdge) {
-            stage = castPairs(rays, onA, onB, 8, base::mix(key));
-        }
+    if (sample.isMixed && areAll) {
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
         const float distance = glm::distance(shapeA.center, shapeB.center);
@@ -234,11 +235,11 @@ VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, c
     const ElementSampler sampler(hierarchy, element, base::toUnit(base::mix(key)));
     const bool isSky = hierarchy.kind(source) == hierarchy::NodeKind::sky;
     const unsigned side = 8;
-    std::array<rays::Ray, kSecondRays> bundle;
-    std::array<double, kSecondRays> weights{};
-    std::array<unsigned, kSecondRays> quarters{};
-    std::array<base::Vec2d, kSecondRays> locals;
-    std::array<std::uint8_t, kSecondRays> blocked{};
+    std::array<rays::Ray, kAllRays> bundle;
+    std::array<double, kAllRays> weights{};
+    std::array<unsigned, kAllRays> quarters{};
+    std::array<base::Vec2d, kAllRays> locals;
+    std::array<std::uint8_t, kAllRays> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < side * side; ++i) {

@@ -21,20 +21,18 @@ struct VisibilitySample {
     bool isMixed = false;  ///< some were blocked and some were not
 };
 
-/// Rays of the two stages: all alike after the first ends it, otherwise the second decides.
-inline constexpr unsigned kFirstRays = 16;
-inline constexpr unsigned kSecondRays = 64;
+/// Rays of a pair, and of one that matters little. Of those between clusters many face away and are not cast:
+/// where less than half are left, others are drawn, this many times at most in all.
+inline constexpr unsigned kAllRays = 64;
+inline constexpr unsigned kFacingRounds = 4;
+inline constexpr unsigned kFewRays = 16;
 /// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
-/// if they see each other partly, the second stage is repeated. They are few. (Furnace of check 7: row sums
-/// within 1.5 to 3 %, 99 % of them within .8 % instead of 1.1 %, for 3 % more rays.)
+/// if they see each other partly, as many rays are cast again and again. They are few. (Furnace of check 7:
+/// row sums within 1.5 to 3 %, 99 % of them within .8 % instead of 1.1 %, for 3 % more rays.)
 inline constexpr float kNearPair = 1.5f;
 inline constexpr unsigned kNearRounds = 16;
 /// How many rays a pair gets.
-enum class RayEffort : std::uint8_t {
-    staged,  ///< the second stage only where the first one's rays differ
-    second,  ///< all of the second stage at once
-    first    ///< the first stage alone
-};
+enum class RayEffort : std::uint8_t { all, few };
 
 /// Between two elements or clusters: stratified on both, every stratum of each used once, kernel-weighted.
 /// Keyed by the names of the pair, so the same for (a, b) and (b, a).

@@ -12,7 +12,7 @@ namespace {
 solve::Statistics solveWith(rays::TreeBuilder clusters, rays::RayEngine rays, unsigned threads = 2) {
     solve::Options options;
     // A fixed threshold: the closed loop might go on by another level.
-    options.threshold = 0.3;
+    options.threshold = 0.0005;
     options.clusters = clusters;
     options.rays = rays;
     solve::Solver solver(std::make_shared<const scene::Scene>(scene::buildCornellBox(base::Rgb(100.0f))),

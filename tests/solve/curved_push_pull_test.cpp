@@ -185,7 +185,9 @@ double solveFurnace(const Problem& problem, float rho, Pull rule, double& gain) 
 TEST(PlainPull, furnaceGainsWhatItsPolygonsSay) {
     scene::Scene scene = test::glowingScene("sphere");
     test::addCurved(scene, "sphere", std::make_shared<surface::Sphere>(Vec3d(1, 2, 3), 1.5, true));
-    const auto problem = test::makeProblem(std::move(scene));
+    solve::Options options;
+    options.clusterLinks = false;
+    const auto problem = test::makeProblem(std::move(scene), options);
     test::refine(*problem, 1e9);
     hierarchy::Hierarchy& h = problem->hierarchy;
     ASSERT_EQ(h.patches().size(), 8u);

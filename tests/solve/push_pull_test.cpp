@@ -22,7 +22,9 @@ using hierarchy::NodeKind;
 using test::Problem;
 
 std::unique_ptr<Problem> makeFurnace() {
-    auto problem = test::makeProblem(scene::buildFurnace(.5f, false));
+    solve::Options options;
+    options.clusterLinks = false;  // how clusters share is looked at in cluster_exchange_test.cpp
+    auto problem = test::makeProblem(scene::buildFurnace(.5f, false), options);
     test::refine(*problem, 1e-4);
     return problem;
 }

@@ -1,0 +1,133 @@
+#include "core/solve/cluster_exchange.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/scene/builders.h"
+#include "core/transport/cluster_factor.h"
+#include "tests/support/hard_scenes.h"
+#include "tests/support/solving.h"
+
+// Links of clusters carry what they say: all that is sent arrives, the same in both directions.
+
+namespace fluxwalk {
+
+namespace {
+
+using base::NodeId;
+using base::Rgb;
+using base::Vec3d;
+using hierarchy::Link;
+using hierarchy::NodeKind;
+using test::Problem;
+
+std::unique_ptr<Problem> makeLinked(unsigned threads = 2) {
+    auto problem = test::makeProblem(test::buildCloud(200, 4), {}, threads);
+    for (const double threshold : {1e-2, 1e-3, 2e-4}) {
+        test::refine(*problem, threshold);
+        test::converge(*problem, 1e-3);
+    }
+    EXPECT_GT(problem->links.clusterLinks, 500u);
+    return problem;
+}
+
+float randomValue(NodeId id, std::uint64_t key) {
+    return static_cast<float>(base::toUnit(base::mix(base::combine(key, base::index(id)))));
+}
+
+}  // namespace
+
+// One link at a time, light of all colours.
+TEST(ClusterExchange, allThatIsSentArrives) {
+    const auto problem = makeLinked();
+    hierarchy::Hierarchy& h = problem->hierarchy;
+    const std::vector<Link> all = problem->links.links;
+    const std::size_t clusterLinks = problem->links.clusterLinks;
+    int looked = 0;
+    for (std::size_t i = 0; i < clusterLinks; i += 17) {
+        problem->links.links = {all[i]};
+        problem->links.clusterLinks = 1;
+        problem->links.index(h.nodeCount());
+        solve::ClusterExchange exchange(*problem, problem->rowScale);
+        std::vector<Rgb> out(h.patches().size());
+        exchange.gather(0, out.size(), out);
+        Vec3d arriving(0.0);
+        for (std::size_t k = 0; k < out.size(); ++k) {
+            arriving += static_cast<double>(h.shape(h.patches()[k]).exposedArea()) * Vec3d(out[k]);
+        }
+        Vec3d sent(0.0);
+        for (const NodeId end : {all[i].a, all[i].b}) {
+            if (h.kind(end) == NodeKind::cluster) {
+                const NodeId source = end == all[i].a ? all[i].b : all[i].a;
+                sent += Vec3d(all[i].transfer() * exchange.shownBy(0, source));
+            }
+        }
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(arriving[c], sent[c], 1e-5 * sent[c]);
+        }
+        looked += sent.x > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(looked, 20);
+}
+
+// Where all glow alike, an end shows just that.
+TEST(ClusterExchange, constantsAreShownAsTheyAre) {
+    const auto problem = makeLinked();
+    const solve::ClusterExchange exchange(*problem, problem->rowScale, true);
+    for (std::size_t i = 0; i < problem->links.clusterLinks; ++i) {
+        for (const NodeId end : {problem->links.links[i].a, problem->links.links[i].b}) {
+            EXPECT_NEAR(static_cast<double>(exchange.shownBy(i, end).g), 1.0, 1e-5);
+        }
+    }
+}
+
+// <u, T v> = <v, T u> by area for any radiosities u and v of the leaves: reciprocity of all that is
+// transported, links of elements, clusters and their slopes together.
+TEST(ClusterExchange, transportIsItsOwnAdjoint) {
+    const auto problem = makeLinked();
+    const hierarchy::Hierarchy& h = problem->hierarchy;
+    const auto u = [](NodeId id) { return randomValue(id, 1); };
+    const auto v = [](NodeId id) { return randomValue(id, 2); };
+    const std::vector<double> tu = test::transport(*problem, u);
+    const std::vector<double> tv = test::transport(*problem, v);
+    double utv = 0.0;
+    double vtu = 0.0;
+    for (const NodeId id : test::leavesOf(h)) {
+        const auto area = static_cast<double>(h.shape(id).exposedArea());
+        utv += area * static_cast<double>(u(id)) * tv[base::index(id)];
+        vtu += area * static_cast<double>(v(id)) * tu[base::index(id)];
+    }
+    EXPECT_GT(h.leafCount(), h.patches().size());
+    EXPECT_NEAR(utv / vtu, 1.0, 1e-5);
+}
+
+// No sum of a row may let light grow without end: reflectances here are .5, in buildings up to .85.
+TEST(ClusterExchange, doesNotAmplify) {
+    const auto problem = test::makeProblem(test::buildCloud(2000, 1));
+    hierarchy::Hierarchy& h = problem->hierarchy;
+    test::setReflectance(*problem, .85f);
+    test::refine(*problem, 1e-1);
+    const int sweeps = test::converge(*problem, 1e-5, 300);
+    EXPECT_LT(sweeps, 300);
+    for (const NodeId id : h.patches()) {
+        EXPECT_TRUE(std::isfinite(h.light(id).irradiance.g));
+    }
+}
+
+TEST(ClusterExchange, isTheSameForAnyNumberOfThreads) {
+    const auto one = makeLinked(1);
+    const auto eight = makeLinked(8);
+    ASSERT_EQ(one->links.links.size(), eight->links.links.size());
+    for (std::size_t i = 0; i < one->links.links.size(); ++i) {
+        const Link& a = one->links.links[i];
+        const Link& b = eight->links.links[i];
+        ASSERT_TRUE(a.a == b.a && a.b == b.b);
+        ASSERT_EQ(a.coupling, b.coupling);
+        ASSERT_EQ(a.visibilityBits, b.visibilityBits);
+    }
+    for (std::uint32_t i = 0; i < one->hierarchy.nodeCount(); ++i) {
+        ASSERT_EQ(one->hierarchy.light(NodeId{i}).radiosity, eight->hierarchy.light(NodeId{i}).radiosity);
+    }
+}
+
+}  // namespace fluxwalk
