@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/hierarchy/local_frame.h"
+
 namespace fluxwalk::solve {
 
 namespace {

@@ -105,19 +105,16 @@ Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, c
     return r;
 }
 
-// The points are few: the sums over all patches are better known. Where few points had a share, that is not
-// stretched to many times what they show.
-double correct(const hierarchy::Hierarchy& h, NodeId cluster, const Ball& other, const Received& received) {
+// How much the sum of the shares of all patches differs from what the few points say of it. Where few points
+// had a share, that is not stretched to many times what they show.
+double correct(double shares, const Received& received) {
     constexpr double kMost = 4.0;
-    if (!(received.shares > 0.0)) {
-        return 0.0;
-    }
-    return std::min(static_cast<double>(sumShares(h, cluster, other)) / received.shares, kMost);
+    return received.shares > 0.0 ? std::min(shares / received.shares, kMost) : 0.0;
 }
 
 // Coupling with which every patch would see the whole ball about the other end glow: no more can arrive.
 // Without this limit, few points in a crowd of patches could let them light each other up without end.
-double limitOf(double shares, const hierarchy::Shape& other) {
+double limitOf(double shares, const Ball& other) {
     const auto radius = static_cast<double>(other.radius);
     return shares * radius * radius;
 }
@@ -136,9 +133,12 @@ PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     const Received atB = summarize(h, pointsB, both.atB, ballA);
     PairFactor result;
     result.evaluations = 2 * kClusterPoints * kClusterPoints;
-    result.coupling = 0.5 * (atA.power + atB.power) * correct(h, a, ballB, atA) * correct(h, b, ballA, atB);
-    result.spreadA = atA.spread;
-    result.spreadB = atB.spread;
+    const auto sharesA = static_cast<double>(sumShares(h, a, ballB));
+    const auto sharesB = static_cast<double>(sumShares(h, b, ballA));
+    result.coupling = std::min({0.5 * (atA.power + atB.power) * correct(sharesA, atA) * correct(sharesB, atB),
+                                limitOf(sharesA, ballB), limitOf(sharesB, ballA)});
+    result.spreadA = atA.spread + kUnknown * atB.spread;
+    result.spreadB = atB.spread + kUnknown * atA.spread;
     return result;
 }
 
@@ -156,8 +156,10 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
     if (!(received.power > 0.0)) {
         return result;
     }
+    const auto shares = static_cast<double>(sumShares(h, cluster, ball));
     result.coupling =
-        received.power * correct(h, cluster, ball, received) * static_cast<double>(h.shape(element).exposed);
+        std::min(received.power * correct(shares, received) * static_cast<double>(h.shape(element).exposed),
+                 limitOf(shares, ball));
     result.spreadA = received.spread;
     const Lanes atElement =
         hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);

@@ -5,6 +5,7 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/local_frame.h"
 #include "core/transport/cluster_factor.h"
 #include "core/transport/contact_visibility.h"
 #include "core/transport/exposed_part.h"
@@ -230,8 +231,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         case ShaftContent::unknown:
             break;
     }
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b,
-                                                   query.isEdge ? RayEffort::second : RayEffort::staged);
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);

@@ -19,7 +19,10 @@ FLUXWALK_INLINE float shareOf(float dx, float dy, float dz, float nx, float ny, 
     const float cosine = (nx * dx + ny * dy + nz * dz) / r;
     const float s = std::max(std::min(1.0f, radius / r + spread), 1e-6f);
     const float t = std::max(0.0f, 0.5f * (cosine + s) / s);
-    const float cut = s * t * (t + s * s * s * (1.0f - t));
+    const float s2 = s * s;
+    const float s4 = s2 * s2;
+    const float touching = s4 * s4 * s4 * s4;
+    const float cut = s * t * (t + touching * (1.0f - t));
     const float lit = cosine < s ? cut : cosine;
     const float away = std::max(r, radius);
     return lit / (away * away);

@@ -219,7 +219,7 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         }
         sample = toSample(stage);
         sample.isMixed = true;
-        sample.rays = static_cast<std::uint16_t>(stage.count + (isEdge ? 0 : firstRays));
+        sample.rays = static_cast<std::uint16_t>(stage.count);
         sample.gradientA = stage.shadowGradient(0, hierarchy::localFrame(shapeA.cornerCount));
         sample.gradientB = stage.shadowGradient(1, hierarchy::localFrame(shapeB.cornerCount));
         if (isSwapped) {

@@ -65,8 +65,8 @@ double measureError(const Problem& problem, const solve::ClusterExchange& exchan
         static_cast<double>(link.transfer() * base::channelMean(exchange.shownBy(index, source)));
     const auto area = static_cast<double>(h.shape(receiver).exposedArea());
     const auto sourceArea = static_cast<double>(h.shape(source).exposedArea());
-    const double shares =
-        isCluster ? static_cast<double>(transport::sumShares(h, receiver, h.shape(source))) : 0.0;
+    const transport::Ball ball = transport::findBall(h, receiver, source);
+    const double shares = isCluster ? static_cast<double>(transport::sumShares(h, receiver, ball)) : 0.0;
     const EndPoints onReceiver(problem, receiver);
     const EndPoints onSource(problem, source);
     base::RandomStream random(base::combine(h.key(receiver), h.key(source)));
@@ -77,10 +77,10 @@ double measureError(const Problem& problem, const solve::ClusterExchange& exchan
         const Point x = onReceiver.at({(i + u.x) / kPoints, u.y});
         double arrives = power / area;
         if (isCluster) {
-            arrives = shares > 0.0
-                          ? power / shares *
-                                static_cast<double>(transport::patchShare(h.shape(x.node), h.shape(source)))
-                          : power / area;
+            arrives = shares > 0.0 ? power / shares *
+                                         static_cast<double>(transport::computeShare(
+                                             h.patchTable(), h.firstPatchBelow(x.node), ball))
+                                   : power / area;
         }
         std::array<double, 2> deviation{-arrives, -arrives};
         for (int k = 0; k < 2 * kRays; ++k) {
