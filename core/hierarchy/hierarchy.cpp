@@ -97,6 +97,7 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     leafCount_ = patches_.size();
     shapePatches(executor);
     shapeClusters();
+    assignRooms();
     tabulatePatches();
 }
 
