@@ -122,6 +122,10 @@ void exactOccluded(const RTCOccludedFunctionNArguments* args) {
     }
 }
 
+double largest(const Vec3d& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 }  // namespace
 
 struct RayScene::Impl {
@@ -208,12 +212,15 @@ std::shared_ptr<const PatchTree> RayScene::patchTree() const {
 
 RayScene::~RayScene() = default;
 
+double RayScene::leastLift(const Vec3d& a, double radiusA, const Vec3d& b, double radiusB) const {
+    const double reach = std::max(0.0, largest(a) - radiusA) + std::max(0.0, largest(b) - radiusB) +
+                         std::max(0.0, largest(b - a) - radiusA - radiusB);
+    return std::min(lift_, kLiftOfReach * reach);
+}
+
 Ray RayScene::segment(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& to,
                       const Vec3d& toNormal) const {
     // What float rounds, at the ends and along the way, grows with these lengths only.
-    const auto largest = [](const Vec3d& v) {
-        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    };
     const double reach = largest(from) + largest(to) + largest(to - from);
     const double lift = std::min(lift_, kLiftOfReach * reach);
     const Vec3d a = from + lift * fromNormal;

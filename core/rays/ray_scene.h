@@ -55,6 +55,9 @@ class RayScene {
     /// Lift in metres for this scene, at most.
     double lift() const { return lift_; }
 
+    /// Least lift in metres of segments between points of two balls.
+    double leastLift(const Vec3d& a, double radiusA, const Vec3d& b, double radiusB) const;
+
     /// Segment between two surface points, both lifted along their normals (unit, towards the side that sees
     /// the other).
     Ray segment(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& to, const Vec3d& toNormal) const;

@@ -35,13 +35,11 @@ bool hasConstantKernel(const Hierarchy& h, const Link& link) {
     return a.object == b.object && a.back == b.back && h.surfaceOf(link.a).exactKernel(a.back);
 }
 
-float visibilityUpper(const Link& link, NodeKind kindB, bool isMixed) {
+float visibilityUpper(const Link& link) {
     if (link.isOpen()) {
         return 1.0f;
     }
-    const bool isWell = isMixed || kindB == NodeKind::light || kindB == NodeKind::sky;
-    return transport::visibilityUpperBound(link.visibility(),
-                                           isWell ? transport::kAllRays : transport::kFewRays);
+    return transport::visibilityUpperBound(link.visibility(), transport::kAllRays);
 }
 
 // Whether rays were blocked and rays passed.
@@ -64,7 +62,7 @@ transport::LinkAssessment assessLink(const Problem& problem, const Link& link, f
     k.visibility = link.visibility();
     // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
     k.isMixed = isPartlyBlocked(link) && kindB != NodeKind::sky;
-    k.visibilityUpper = visibilityUpper(link, kindB, k.isMixed);
+    k.visibilityUpper = visibilityUpper(link);
     k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
     k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
     // Where the kernel is one constant, distance makes up for what the cosines do.

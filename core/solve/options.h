@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/rays/ray_scene.h"
@@ -19,6 +20,16 @@ enum class ErrorOf : std::uint8_t {
                 ///< same links
 };
 
+/// Whether links may end at clusters.
+enum class ClusterLinks : std::uint8_t {
+    automatic,  ///< in scenes of more than kManyPatches patches
+    on,
+    off  ///< every pair of patches that see each other has links of its own
+};
+/// Below this number direct links cost as little and resolve more: what passes an opening, what lies in a
+/// gap.
+inline constexpr std::size_t kManyPatches = 2000;
+
 /// How a node's radiosity follows from its children's (push copies irradiance in either).
 enum class PullRule : std::uint8_t {
     /// Means by true area: adjoint to push, power is conserved (ALGORITHMS 1.5, convention A).
@@ -33,8 +44,7 @@ struct Options {
     double error = 0.02;
     ErrorOf errorOf = ErrorOf::displayed;
     OracleKind oracle = OracleKind::bounded;
-    /// Links may end at clusters. Off, every pair of patches that see each other has links of its own.
-    bool clusterLinks = true;
+    ClusterLinks clusterLinks = ClusterLinks::automatic;
     /// Largest error of a link in lux (bf: of the receiver; bfa and bounded: spread over the whole scene's
     /// area). 0 chooses it by a closed loop that ends at `error`.
     double threshold = 0.0;

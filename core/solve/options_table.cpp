@@ -112,13 +112,14 @@ std::vector<OptionInfo> makeTable() {
         {.name = "cluster-links",
          .kind = OptionKind::choice,
          .minimum = 0.0,
-         .maximum = 1.0,
-         .choices = {"off", "on"},
+         .maximum = 2.0,
+         .choices = {"auto", "on", "off"},
          .explanation =
-             "Whether links may end at clusters. 'off' links all pairs of patches that see each other, as "
-             "without a hierarchy above them: the work grows with the square of their number.",
-         .get = [](const Options& o) { return o.clusterLinks ? 1.0 : 0.0; },
-         .set = [](Options& o, double value) { o.clusterLinks = value != 0.0; }});
+             "Whether links may end at clusters: 'auto' in scenes of more than 2,000 patches. 'off' links "
+             "all "
+             "pairs of patches that see each other: the work grows with the square of their number.",
+         .get = [](const Options& o) { return static_cast<double>(o.clusterLinks); },
+         .set = [](Options& o, double value) { o.clusterLinks = static_cast<ClusterLinks>(value); }});
     table.push_back({.name = "rays",
                      .kind = OptionKind::choice,
                      .minimum = 0.0,

@@ -167,7 +167,7 @@ class Refinement {
             return judgeSelf(link.a);
         }
         if (isCluster(link.a) || isCluster(link.b)) {
-            if (!problem_.options.clusterLinks) {
+            if (!problem_.takesClusterLinks()) {
                 return splitCluster(link.a, link.b);
             }
             if (isMinorPair(link.a, link.b)) {
@@ -309,7 +309,7 @@ class Refinement {
         const bool areSurfaces = a.area > 0.0f && b.area > 0.0f;
         const bool isMinor = areSurfaces && isMinorPair(pair.a, pair.b);
         const bool areInRooms = hierarchy_.isInOneRoom(pair.a) && hierarchy_.isInOneRoom(pair.b);
-        if (!problem_.options.clusterLinks || !areSurfaces || !areInRooms ||
+        if (!problem_.takesClusterLinks() || !areSurfaces || !areInRooms ||
             (!isMinor && !areApart(pair.a, pair.b))) {
             d.verdict = splitCluster(pair.a, pair.b);
             return d;
@@ -318,9 +318,7 @@ class Refinement {
             return d;
         }
         Coefficient c;
-        Query query = pair;
-        query.isMinor = isMinor;
-        service_.compute(std::span(&query, 1), std::span(&c, 1));
+        service_.compute(std::span(&pair, 1), std::span(&c, 1));
         count(c, counters);
         if (c.isBlocked) {
             return d;

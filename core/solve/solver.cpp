@@ -91,7 +91,7 @@ constexpr std::size_t kMaxPairedPatches = 8000;
 
 void checkSize(const Problem& problem) {
     const std::size_t patches = problem.hierarchy.patches().size();
-    if (!problem.options.clusterLinks && patches > kMaxPairedPatches) {
+    if (!problem.takesClusterLinks() && patches > kMaxPairedPatches) {
         throw base::UsageError("the scene has " + std::to_string(patches) +
                                " patches that light reaches; without cluster links all pairs of them are "
                                "linked, and at most " +
@@ -141,6 +141,9 @@ class Run {
                 problem_.options.seed = built.seed;
                 problem_.options.clusters = built.clusters;
                 problem_.options.rays = built.rays;
+                if (problem_.hierarchy.patches().size() > kMaxPairedPatches) {
+                    problem_.options.clusterLinks = ClusterLinks::on;
+                }
             }
         }
         wasStopped_ = wasStopped_ || (callbacks_.shouldStop && callbacks_.shouldStop());

@@ -35,6 +35,11 @@ struct Problem {
     /// Factor of each node on all its transfers, from row scaling; empty while it is off.
     std::vector<float> rowScale;
 
+    /// Whether links may end at clusters.
+    bool takesClusterLinks() const {
+        return options.clusterLinks == ClusterLinks::automatic ? hierarchy.patches().size() > kManyPatches
+                                                               : options.clusterLinks == ClusterLinks::on;
+    }
     /// Smallest area in m2 that is still split.
     double minArea() const { return options.minArea > 0.0 ? options.minArea : 1e-7 * hierarchy.totalArea(); }
 };

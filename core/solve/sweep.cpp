@@ -6,7 +6,6 @@
 
 #include "core/base/photometry.h"
 #include "core/hierarchy/local_frame.h"
-#include "core/solve/audit.h"
 
 namespace fluxwalk::solve {
 
@@ -18,13 +17,6 @@ constexpr std::size_t kMinEnds = 2048;
 constexpr std::size_t kMinBlocks = 8;
 /// More blocks than this would only look at the same large clusters again.
 constexpr std::size_t kMaxBlocks = 64;
-
-/// Kernels that a coarse link does not resolve, as between large elements a small gap apart, could feed on
-/// themselves without end. A leaf that would get more than kSafeRowSum from surroundings of radiosity 1 keeps
-/// no slope, and what it reflects of that is limited to kMostReflected. (ALGORITHMS 1.7; the audit's row sums
-/// show what was cut.)
-constexpr float kMostReflected = 0.9f;
-constexpr float kSafeRowSum = 1.1f;
 
 }  // namespace
 
@@ -63,7 +55,6 @@ Sweeper::Sweeper(Problem& problem) : problem_(problem), clusters_(problem, probl
         blocks_.push_back(block);
     }
     gathered_.resize(h.nodeCount());
-    rowSums_ = computeRowSums(problem, problem.rowScale);
 }
 
 double Sweeper::sweep() {
@@ -177,12 +168,6 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
             own.t += from.t;
         }
         if (h.isLeaf(id)) {
-            if (const float row = rowSums_[base::index(id)]; row > kSafeRowSum) {
-                const float reflectance = base::channelMean(h.light(id).reflectance);
-                const float most = std::max(kSafeRowSum, kMostReflected / std::max(reflectance, 1e-3f));
-                own.mean *= std::min(1.0f, most / row);
-                own.s = own.t = Rgb(0.0f);
-            }
             // Limited linear parts can still add up to a little less than nothing.
             h.light(id).irradiance = glm::max(own.mean, Rgb(0.0f));
         }

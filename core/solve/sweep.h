@@ -44,9 +44,8 @@ class Sweeper {
     ClusterExchange clusters_;
     std::vector<Rgb> fromClusters_;  ///< by patch of the block at hand
     std::vector<LinearIrradiance>
-        gathered_;                ///< by node: through its own links, then with that of all ancestors
-    std::vector<float> rowSums_;  ///< of leaves, as transported
-    std::vector<NodeId> order_;   ///< nodes of the elements' trees, parents before children
+        gathered_;               ///< by node: through its own links, then with that of all ancestors
+    std::vector<NodeId> order_;  ///< nodes of the elements' trees, parents before children
     std::vector<Block> blocks_;
 };
 

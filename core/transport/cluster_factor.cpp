@@ -109,7 +109,7 @@ Received summarize(const hierarchy::Hierarchy& h, const ClusterPoints& points, c
 // had a share, that is not stretched to many times what they show.
 double correct(double shares, const Received& received) {
     constexpr double kMost = 4.0;
-    return received.shares > 0.0 ? std::min(shares / received.shares, kMost) : 0.0;
+    return received.shares > 0.0 ? std::min(shares / received.shares, kMost) : 1.0;
 }
 
 // Coupling with which every patch would see the whole ball about the other end glow: no more can arrive.
@@ -158,8 +158,7 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
     }
     const auto shares = static_cast<double>(sumShares(h, cluster, ball));
     result.coupling =
-        std::min(received.power * correct(shares, received) * static_cast<double>(h.shape(element).exposed),
-                 limitOf(shares, ball));
+        received.power * correct(shares, received) * static_cast<double>(h.shape(element).exposed);
     result.spreadA = received.spread;
     const Lanes atElement =
         hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);

@@ -155,7 +155,7 @@ void CoefficientService::compute(std::span<const Query> queries, std::span<Coeff
 
 Coefficient CoefficientService::withClusters(const Query& query) const {
     Coefficient out;
-    if (isCutOff(hierarchy_, rays_, query.a, query.b, 0.5 * rays_.lift())) {
+    if (isCutOff(hierarchy_, rays_, query.a, query.b, shaftTolerance(hierarchy_, rays_, query.a, query.b))) {
         out.isBlocked = true;
         out.visibility = 0.0f;
         return out;
@@ -172,8 +172,7 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
     if (out.coupling <= 0.0f) {
         return out;
     }
-    const RayEffort effort = query.isMinor ? RayEffort::few : RayEffort::all;
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, effort);
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);
@@ -220,7 +219,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         out.isOpen = query.isOpen;
         return out;
     }
-    switch (inspectShaft(hierarchy_, query.a, query.b, 0.5 * rays_.lift())) {
+    switch (inspectShaft(hierarchy_, query.a, query.b, shaftTolerance(hierarchy_, rays_, query.a, query.b))) {
         case ShaftContent::empty:
             out.isOpen = true;
             return out;

@@ -12,13 +12,10 @@ namespace fluxwalk::transport {
 using base::NodeId;
 
 /// A pair whose coefficient is asked for. `isOpen`: a pair above it was found with an empty shaft.
-/// `isMinor`: clusters of which all
-/// that they could exchange matters little: few rays will do.
 struct Query {
     NodeId a{};
     NodeId b{};
     bool isOpen = false;
-    bool isMinor = false;
 };
 
 /// What a pair exchanges. `b` may be a light source, where `a` is an element; either may be a cluster.

@@ -195,6 +195,13 @@ bool Shaft::excludes(std::span<const Vec3d> polygon) const {
     return false;
 }
 
+double shaftTolerance(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b) {
+    const hierarchy::Shape& shapeA = hierarchy.shape(a);
+    const hierarchy::Shape& shapeB = hierarchy.shape(b);
+    return 0.5 * rays.leastLift(Vec3d(shapeA.center), static_cast<double>(shapeA.radius),
+                                Vec3d(shapeB.center), static_cast<double>(shapeB.radius));
+}
+
 ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b, double tolerance) {
     const hierarchy::Shape& shapeA = hierarchy.shape(a);
     const hierarchy::Shape& shapeB = hierarchy.shape(b);

@@ -41,6 +41,10 @@ class Shaft {
     std::size_t planeCount_ = 0;
 };
 
+/// Tolerance in metres with which rays between two nodes, which start off their surfaces, keep to what a
+/// certificate says.
+double shaftTolerance(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a, NodeId b);
+
 /// Looks for occluders between two elements. Certain in both directions: `empty` and `blocked` need no rays,
 /// here and for all descendants of the pair.
 ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b, double tolerance);

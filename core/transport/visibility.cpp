@@ -188,7 +188,7 @@ VisibilitySample toSample(const Stage& stage) {
 }  // namespace
 
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b, RayEffort effort) {
+                                  NodeId b) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
     const bool isSwapped = keyA > keyB;
@@ -199,15 +199,13 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const std::uint64_t key = base::combine(keyA, keyB);
     const EndSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
     const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
-    const bool areAll = effort == RayEffort::all;
-    Stage stage = castPairs(rays, onA, onB, areAll ? 8 : 4, key);
+    Stage stage = castPairs(rays, onA, onB, 8, key);
     const bool isWithCluster = hierarchy.shape(a).cornerCount == 0 || hierarchy.shape(b).cornerCount == 0;
-    for (unsigned round = 1; areAll && isWithCluster && stage.count < kAllRays / 2 && round < kFacingRounds;
-         ++round) {
+    for (unsigned round = 1; isWithCluster && stage.count < kAllRays / 2 && round < kFacingRounds; ++round) {
         stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
     }
     VisibilitySample sample = toSample(stage);
-    if (sample.isMixed && areAll) {
+    if (sample.isMixed) {
         const hierarchy::Shape& shapeA = hierarchy.shape(a);
         const hierarchy::Shape& shapeB = hierarchy.shape(b);
         const float distance = glm::distance(shapeA.center, shapeB.center);

@@ -21,19 +21,15 @@ struct VisibilitySample {
     bool isMixed = false;  ///< some were blocked and some were not
 };
 
-/// Rays of a pair, and of one that matters little. Of those between clusters many face away and are not cast:
+/// Rays of a pair. Of those between clusters many face away and are not cast:
 /// where less than half are left, others are drawn, this many times at most in all.
 inline constexpr unsigned kAllRays = 64;
 inline constexpr unsigned kFacingRounds = 4;
-inline constexpr unsigned kFewRays = 16;
 /// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
 /// if they see each other partly, as many rays are cast again and again. They are few. (Furnace of check 7:
 /// row sums within 1.5 to 3 %, 99 % of them within .8 % instead of 1.1 %, for 3 % more rays.)
 inline constexpr float kNearPair = 1.5f;
 inline constexpr unsigned kNearRounds = 16;
-
-/// How many rays a pair gets.
-enum class RayEffort : std::uint8_t { all, few };
 
 /// Between two elements or clusters: stratified on both, every stratum of each used once, kernel-weighted.
 /// Keyed by the names of the pair, so the same for (a, b) and (b, a).
@@ -44,7 +40,7 @@ enum class RayEffort : std::uint8_t { all, few };
 /// links. Cloud of 1,000 triangles in a closed room: 1.3 % too much in the balance, .2 % without the stage,
 /// for 3 % more rays in furnished rooms.)
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b, RayEffort effort = RayEffort::all);
+                                  NodeId b);
 
 /// Between an element and a light source without area, or the sky.
 VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,

@@ -21,7 +21,7 @@ using solve::Problem;
 
 constexpr std::size_t kSample = 20000;
 constexpr std::size_t kGrain = 64;
-constexpr std::size_t kBundle = transport::kFewRays;
+constexpr std::size_t kBundle = 16;
 constexpr int kRounds = 3;
 
 // Links between two different elements, evenly from all waves; `isTested` keeps those that needed rays.

@@ -115,8 +115,14 @@ TEST(Hierarchy, clustersHoldTheirChildren) {
                 if (child.area == 0.0f) {
                     continue;
                 }
-                EXPECT_LE(glm::distance(shape.center, child.center) + child.radius,
+                // Its sphere holds the children's spheres, or the box about both.
+                const hierarchy::Extent& box = tree.extent(id);
+                const float across = 0.5f * glm::length(box.upper - box.lower);
+                EXPECT_LE(std::min(glm::distance(shape.center, child.center) + child.radius, across),
                           shape.radius * (1.0f + 1e-5f) + 1e-6f);
+                const hierarchy::Extent& inner = tree.extent(tree.child(id, c));
+                EXPECT_EQ(glm::min(box.lower, inner.lower), box.lower);
+                EXPECT_EQ(glm::max(box.upper, inner.upper), box.upper);
                 const double between = base::NormalCone::angleBetween(Vec3d(shape.axis), Vec3d(child.axis));
                 EXPECT_TRUE(static_cast<double>(shape.halfAngle) > 3.1415 ||
                             between + static_cast<double>(child.halfAngle) <=

@@ -28,7 +28,7 @@ double defectOf(Problem& problem) {
 TEST(Balance, closedFurnace) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
         solve::Options options;
-        options.clusterLinks = false;
+        options.clusterLinks = solve::ClusterLinks::off;
         options.minArea = .004;
         options.seed = seed;
         const auto problem = test::makeProblem(scene::buildFurnace(.5f, false), options);
@@ -39,7 +39,7 @@ TEST(Balance, closedFurnace) {
 
 TEST(Balance, emptyCube) {
     solve::Options options;
-    options.clusterLinks = false;
+    options.clusterLinks = solve::ClusterLinks::off;
     options.minArea = .2;
     const auto problem = test::makeProblem(scene::buildCie58(.5f), options);
     test::refine(*problem, 1e-9);
@@ -49,7 +49,7 @@ TEST(Balance, emptyCube) {
 // Light that is lost on the way shows in the audit, as it is no remainder.
 TEST(Balance, showsWhatIsMissing) {
     solve::Options options;
-    options.clusterLinks = false;
+    options.clusterLinks = solve::ClusterLinks::off;
     options.minArea = .2;
     const auto problem = test::makeProblem(scene::buildCie58(.5f), options);
     test::refine(*problem, 1e-9);
@@ -62,7 +62,7 @@ TEST(Balance, showsWhatIsMissing) {
 // Before it has converged, the balance is open by what still travels.
 TEST(Balance, showsWhatStillTravels) {
     solve::Options options;
-    options.clusterLinks = false;
+    options.clusterLinks = solve::ClusterLinks::off;
     options.minArea = .2;
     const auto problem = test::makeProblem(scene::buildCie58(.9f), options);
     test::refine(*problem, 1e-9);

@@ -15,6 +15,7 @@ solve::Statistics solveWith(rays::TreeBuilder clusters, rays::RayEngine rays, un
     options.threshold = 0.0005;
     options.clusters = clusters;
     options.rays = rays;
+    options.clusterLinks = solve::ClusterLinks::on;
     solve::Solver solver(std::make_shared<const scene::Scene>(scene::buildCornellBox(base::Rgb(100.0f))),
                          options, threads);
     EXPECT_EQ(solver.solve({}), solve::Outcome::reachedError);

@@ -22,7 +22,7 @@ using hierarchy::NodeKind;
 using test::Problem;
 
 std::unique_ptr<Problem> makeLinked(unsigned threads = 2) {
-    auto problem = test::makeProblem(test::buildCloud(200, 4), {}, threads);
+    auto problem = test::makeProblem(test::buildCloud(200, 4), test::withClusterLinks(), threads);
     for (const double threshold : {1e-2, 1e-3, 2e-4}) {
         test::refine(*problem, threshold);
         test::converge(*problem, 1e-3);
@@ -103,7 +103,7 @@ TEST(ClusterExchange, transportIsItsOwnAdjoint) {
 
 // No sum of a row may let light grow without end: reflectances here are .5, in buildings up to .85.
 TEST(ClusterExchange, doesNotAmplify) {
-    const auto problem = test::makeProblem(test::buildCloud(2000, 1));
+    const auto problem = test::makeProblem(test::buildCloud(2000, 1), test::withClusterLinks());
     hierarchy::Hierarchy& h = problem->hierarchy;
     test::setReflectance(*problem, .85f);
     test::refine(*problem, 1e-1);

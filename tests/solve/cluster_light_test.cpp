@@ -26,7 +26,7 @@ std::unique_ptr<solve::Solver> solveScene(scene::Scene scene, double error, bool
     solve::Options options;
     options.error = error;
     options.errorOf = solve::ErrorOf::gathered;
-    options.clusterLinks = clusterLinks;
+    options.clusterLinks = clusterLinks ? solve::ClusterLinks::on : solve::ClusterLinks::off;
     auto solver =
         std::make_unique<solve::Solver>(std::make_shared<const scene::Scene>(std::move(scene)), options, 2);
     solver->solve({});
@@ -153,7 +153,7 @@ TEST(ClusterLeak, noLightComesThroughAWall) {
 namespace {
 
 void expectSolved(scene::Scene scene) {
-    solve::Options options;
+    solve::Options options = test::withClusterLinks();
     options.threshold = .5;
     solve::Solver solver(std::make_shared<const scene::Scene>(std::move(scene)), options, 2);
     EXPECT_EQ(solver.solve({}), solve::Outcome::reachedError);

@@ -151,7 +151,7 @@ void expectWithinPrediction(const Problem& problem) {
 }
 
 std::unique_ptr<Problem> solveTo(scene::Scene scene, double threshold) {
-    auto problem = test::makeProblem(std::move(scene));
+    auto problem = test::makeProblem(std::move(scene), test::withClusterLinks());
     for (double t = 64.0 * threshold; t > .9 * threshold; t /= 4.0) {
         test::refine(*problem, t);
         test::converge(*problem, 1e-3);

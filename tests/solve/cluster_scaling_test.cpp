@@ -17,7 +17,7 @@ struct Size {
 
 // Links of a cloud at a fixed part of the mean irradiance, with the light of the levels before.
 Size solveCloud(unsigned count) {
-    const auto problem = test::makeProblem(test::buildCloud(count, 3));
+    const auto problem = test::makeProblem(test::buildCloud(count, 3), test::withClusterLinks());
     hierarchy::Hierarchy& h = problem->hierarchy;
     double emitted = 0.0;
     for (const base::NodeId id : h.patches()) {

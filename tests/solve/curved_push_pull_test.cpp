@@ -186,7 +186,7 @@ TEST(PlainPull, furnaceGainsWhatItsPolygonsSay) {
     scene::Scene scene = test::glowingScene("sphere");
     test::addCurved(scene, "sphere", std::make_shared<surface::Sphere>(Vec3d(1, 2, 3), 1.5, true));
     solve::Options options;
-    options.clusterLinks = false;
+    options.clusterLinks = solve::ClusterLinks::off;
     const auto problem = test::makeProblem(std::move(scene), options);
     test::refine(*problem, 1e9);
     hierarchy::Hierarchy& h = problem->hierarchy;

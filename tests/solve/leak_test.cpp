@@ -22,6 +22,7 @@ constexpr std::uint32_t kBox = 1;
 solve::Options optionsOf(double error) {
     solve::Options options;
     options.error = error;
+    options.clusterLinks = solve::ClusterLinks::on;
     return options;
 }
 

@@ -23,7 +23,8 @@ using test::Problem;
 
 std::unique_ptr<Problem> makeFurnace() {
     solve::Options options;
-    options.clusterLinks = false;  // how clusters share is looked at in cluster_exchange_test.cpp
+    options.clusterLinks =
+        solve::ClusterLinks::off;  // how clusters share is looked at in cluster_exchange_test.cpp
     auto problem = test::makeProblem(scene::buildFurnace(.5f, false), options);
     test::refine(*problem, 1e-4);
     return problem;

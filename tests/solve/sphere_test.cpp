@@ -22,7 +22,7 @@ std::unique_ptr<Problem> makeSphere() {
     scene.objects.push_back(
         {"sphere", std::make_shared<surface::Sphere>(base::Vec3d(.5, 1, -2), 1.25, true), lit});
     solve::Options options;
-    options.clusterLinks = false;  // octants that are dark yet would stay together
+    options.clusterLinks = solve::ClusterLinks::off;  // octants that are dark yet would stay together
     auto problem = test::makeProblem(std::move(scene), options);
     for (std::uint32_t patch = 1; patch < 8; ++patch) {
         hierarchy::Light& light = problem->hierarchy.light(problem->hierarchy.patchNode(0, patch, false));

@@ -43,7 +43,7 @@ std::unique_ptr<Problem> makeCube(float rho) {
     scene::addPolygons(scene, "floor", bright, faces(scene::kBottom));
     scene::addPolygons(scene, "others", dark, faces(scene::kTop | scene::kAround));
     solve::Options options;
-    options.clusterLinks = false;
+    options.clusterLinks = solve::ClusterLinks::off;
     options.minArea = 2.0;
     auto problem = test::makeProblem(std::move(scene), options);
     test::refine(*problem, 1e9);
@@ -96,7 +96,7 @@ TEST(Sweeps, blockedGaussSeidelInTheCornellBox) {
     std::array<int, 2> blocked{};
     for (const unsigned threads : {1u, 2u}) {
         solve::Options options;
-        options.clusterLinks = false;  // the plain sweeps know elements only
+        options.clusterLinks = solve::ClusterLinks::off;  // the plain sweeps know elements only
         const auto problem = test::makeProblem(*scene::buildScene("cornell-box-unit"), options, threads);
         for (double threshold = 1e-4; threshold > 3e-6; threshold /= 4.0) {
             test::refine(*problem, threshold);

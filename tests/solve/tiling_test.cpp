@@ -137,7 +137,7 @@ void expectTiling(const Problem& problem) {
 }  // namespace
 
 TEST(Tiling, holdsAtEveryLevel) {
-    const auto problem = test::makeProblem(makeRoom());
+    const auto problem = test::makeProblem(makeRoom(), test::withClusterLinks());
     for (double threshold = 10.0; threshold > .05; threshold /= 4.0) {
         test::refine(*problem, threshold);
         test::converge(*problem, 1e-3);
@@ -148,7 +148,7 @@ TEST(Tiling, holdsAtEveryLevel) {
 // A stop inside a refinement accepts what is still open.
 TEST(Tiling, holdsAfterAStop) {
     for (const int waves : {0, 1, 2, 3}) {
-        const auto problem = test::makeProblem(makeRoom());
+        const auto problem = test::makeProblem(makeRoom(), test::withClusterLinks());
         test::refine(*problem, 2.0);
         test::converge(*problem, 1e-3);
         const std::size_t before = problem->links.links.size();

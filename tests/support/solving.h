@@ -26,6 +26,13 @@ inline std::unique_ptr<Problem> makeProblem(scene::Scene scene, const solve::Opt
                                      threads);
 }
 
+/// Options that let links end at clusters in small scenes too.
+inline solve::Options withClusterLinks() {
+    solve::Options options;
+    options.clusterLinks = solve::ClusterLinks::on;
+    return options;
+}
+
 /// Refines all links to a threshold in lux.
 inline bool refine(Problem& problem, double threshold) {
     return solve::refineLinks(problem, threshold, {});

@@ -80,12 +80,13 @@ Census takeCensus(const Built& built, std::uint64_t key, int count) {
             continue;
         }
         ++census.pairs;
-        const ShaftContent content = inspectShaft(built.tree, a, b, 0.5 * built.rays.lift());
+        const double tolerance = transport::shaftTolerance(built.tree, built.rays, a, b);
+        const ShaftContent content = inspectShaft(built.tree, a, b, tolerance);
         if (content == ShaftContent::unknown) {
             continue;
         }
         const Cast cast = castRays(built, a, b, kRays, castKey);
-        EXPECT_EQ(content, inspectShaft(built.tree, b, a, 0.5 * built.rays.lift()));
+        EXPECT_EQ(content, inspectShaft(built.tree, b, a, tolerance));
         if (content == ShaftContent::empty) {
             ++census.empty;
             EXPECT_EQ(cast.blocked, 0u) << "of " << cast.count << " in an empty shaft";
