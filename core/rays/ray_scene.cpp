@@ -212,17 +212,21 @@ std::shared_ptr<const PatchTree> RayScene::patchTree() const {
 
 RayScene::~RayScene() = default;
 
+double RayScene::liftOver(double reach) const {
+    return std::clamp(kLiftOfReach * reach, kLeastLift * lift_, lift_);
+}
+
 double RayScene::leastLift(const Vec3d& a, double radiusA, const Vec3d& b, double radiusB) const {
     const double reach = std::max(0.0, largest(a) - radiusA) + std::max(0.0, largest(b) - radiusB) +
                          std::max(0.0, largest(b - a) - radiusA - radiusB);
-    return std::min(lift_, kLiftOfReach * reach);
+    return liftOver(reach);
 }
 
 Ray RayScene::segment(const Vec3d& from, const Vec3d& fromNormal, const Vec3d& to,
                       const Vec3d& toNormal) const {
     // What float rounds, at the ends and along the way, grows with these lengths only.
     const double reach = largest(from) + largest(to) + largest(to - from);
-    const double lift = std::min(lift_, kLiftOfReach * reach);
+    const double lift = liftOver(reach);
     const Vec3d a = from + lift * fromNormal;
     const Vec3d b = to + lift * toNormal;
     return {Vec3(a), 0.0f, Vec3(b - a), 1.0f};

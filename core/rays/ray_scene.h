@@ -31,6 +31,8 @@ inline constexpr double kLift = 0x1.0p-16;
 /// Segments by no more than this part of their length and of their ends' coordinates together: a lift of
 /// 1.5 cm, as in a scene of 1 km, would take .6 % of what a cylinder of 2 m sees of itself past another.
 inline constexpr double kLiftOfReach = 4.0 * kLift;
+/// But at least by this part of the largest lift: quads count as flat that are not quite.
+inline constexpr double kLeastLift = 0.125;
 
 /// What answers whether a ray is occluded.
 enum class RayEngine : std::uint8_t {
@@ -74,6 +76,8 @@ class RayScene {
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
 
   private:
+    double liftOver(double reach) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
     double lift_ = 0.0;

@@ -35,11 +35,14 @@ bool hasConstantKernel(const Hierarchy& h, const Link& link) {
     return a.object == b.object && a.back == b.back && h.surfaceOf(link.a).exactKernel(a.back);
 }
 
-float visibilityUpper(const Link& link) {
+/// Of the rays between clusters, few say anything of one pair of their surfaces.
+constexpr unsigned kTellingRays = 16;
+
+float visibilityUpper(const Link& link, bool isCluster) {
     if (link.isOpen()) {
         return 1.0f;
     }
-    return transport::visibilityUpperBound(link.visibility(), transport::kAllRays);
+    return transport::visibilityUpperBound(link.visibility(), isCluster ? kTellingRays : transport::kAllRays);
 }
 
 // Whether rays were blocked and rays passed.
@@ -62,7 +65,8 @@ transport::LinkAssessment assessLink(const Problem& problem, const Link& link, f
     k.visibility = link.visibility();
     // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
     k.isMixed = isPartlyBlocked(link) && kindB != NodeKind::sky;
-    k.visibilityUpper = visibilityUpper(link);
+    k.isCluster = h.kind(link.a) == NodeKind::cluster || kindB == NodeKind::cluster;
+    k.visibilityUpper = visibilityUpper(link, k.isCluster);
     k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
     k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
     // Where the kernel is one constant, distance makes up for what the cosines do.
@@ -82,7 +86,6 @@ transport::LinkAssessment assessLink(const Problem& problem, const Link& link, f
     k.radiusB = isOneWay ? 0.0f : shapeB.radius;
     k.distance = glm::distance(shapeA.center, shapeB.center);
     k.isOpen = link.isOpen();
-    k.isCluster = h.kind(link.a) == NodeKind::cluster || kindB == NodeKind::cluster;
     k.sceneArea = static_cast<float>(h.totalArea());
     if (problem.options.oracle == OracleKind::strict) {
         // Splitting is always safe.

@@ -135,6 +135,7 @@ std::string refusalOf(const ScenePtr& scene, const Options& options, const Named
 Options rough() {
     Options options;
     options.error = .2;
+    options.clusterLinks = ClusterLinks::on;
     return options;
 }
 

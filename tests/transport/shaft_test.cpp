@@ -55,6 +55,8 @@ Cast castRays(const Built& built, NodeId a, NodeId b, std::size_t rays, std::uin
 }
 
 struct Census {
+    std::size_t rays = 0;     ///< in shafts said to be empty
+    std::size_t stopped = 0;  ///< of these
     int pairs = 0;
     int empty = 0;
     int blocked = 0;
@@ -89,12 +91,15 @@ Census takeCensus(const Built& built, std::uint64_t key, int count) {
         EXPECT_EQ(content, inspectShaft(built.tree, b, a, tolerance));
         if (content == ShaftContent::empty) {
             ++census.empty;
-            EXPECT_EQ(cast.blocked, 0u) << "of " << cast.count << " in an empty shaft";
+            census.rays += cast.count;
+            census.stopped += cast.blocked;
         } else {
             ++census.blocked;
             EXPECT_EQ(cast.blocked, cast.count) << "in a blocked shaft";
         }
     }
+    // A ray that grazes an edge may be met in float where it passes in truth.
+    EXPECT_LE(static_cast<double>(census.stopped), 1e-5 * static_cast<double>(census.rays)) << census.rays;
     return census;
 }
 
