@@ -135,7 +135,7 @@ std::string refusalOf(const ScenePtr& scene, const Options& options, const Named
 Options rough() {
     Options options;
     options.error = .2;
-    options.clusterLinks = ClusterLinks::on;
+    options.clusterLinks = solve::ClusterLinks::on;
     return options;
 }
 
