@@ -60,12 +60,12 @@ Scene buildBlobs();
 /// Whether a name asks for a building: "building:N" or "building:N:R".
 bool isBuilding(std::string_view name);
 /// A furnished house of several storeys with about N polygons (within 10 %), 10,000 to 2,000,000. As
-/// "building:N" it has as many rooms of the coarsest furniture as that takes; as "building:N:R" it has R rooms
-/// (at most N / 1150), the first R of a larger building with the same plan, and furniture as fine as that
-/// takes. Rooms lie on both sides of a corridor with stairs at its beginning; every room has a door that
-/// stands open or is closed, a window with dark panes, furniture and lamps of 2,850 to 5,750 lm. Closed; every
-/// mesh is closed, save that a lamp's panel closes the housing before it. Throws base::UsageError where the
-/// numbers are out of range.
+/// "building:N" it has as many rooms of the coarsest furniture as that takes; as "building:N:R" it has R
+/// rooms (at most N / 1150), the first R of a larger building with the same plan, and furniture as fine as
+/// that takes. Rooms lie on both sides of a corridor with stairs at its beginning; every room has a door that
+/// stands open or is closed, a window with dark panes, furniture and lamps of 2,850 to 5,750 lm. Closed;
+/// every mesh is closed, save that a lamp's panel closes the housing before it. Throws base::UsageError where
+/// the numbers are out of range.
 Scene buildBuilding(std::string_view name);
 
 /// The demo: an exhibition hall with every curved shape in it, daylight at its end and lamps.

@@ -15,7 +15,8 @@ struct TriangleSoup {
     std::array<std::vector<base::Vec2>, 2> texcoords;
 };
 
-/// Whether four points lie in one plane up to the rounding of float input, as the corners of one quad have to.
+/// Whether four points lie in one plane up to the rounding of float input, as the corners of one quad have
+/// to.
 bool isCoplanar(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
 
 /// Planar polygons. Pairs of coplanar triangles that make a convex quad (with one affine texture map) are one
