@@ -42,6 +42,14 @@ constexpr const LocalFrame& localFrame(std::uint32_t cornerCount) {
     return cornerCount == 3 ? kTriangleFrame : kQuadFrame;
 }
 
+/// Gradient of the linear function 1 + g . local whose mean times the coordinates is `moment`.
+inline base::Vec2d gradientOfMoment(const LocalFrame& frame, const base::Vec2d& moment) {
+    const auto xx = static_cast<double>(frame.xx);
+    const auto xy = static_cast<double>(frame.xy);
+    const auto yy = static_cast<double>(frame.yy);
+    return base::Vec2d(yy * moment.x - xy * moment.y, xx * moment.y - xy * moment.x) / (xx * yy - xy * xy);
+}
+
 /// A gradient in the order of a back side's corners, which run the other way round, in the order of its
 /// region's.
 inline base::Vec2 mirrorGradient(std::uint32_t cornerCount, const base::Vec2& g) {

@@ -232,8 +232,10 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
     }
     const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
     out.visibility = seen.mean;
-    out.gradientA += base::Vec2(seen.gradientA);
-    out.gradientB += base::Vec2(seen.gradientB);
+    out.shadowA = base::Vec2(seen.gradientA);
+    out.shadowB = base::Vec2(seen.gradientB);
+    out.gradientA += out.shadowA;
+    out.gradientB += out.shadowB;
     out.rays = seen.rays;
     out.isMixed = seen.isMixed;
     if (constant && !out.isMixed) {
@@ -262,6 +264,10 @@ bool CoefficientService::settleContact(const Query& query, Coefficient& coeffici
     coefficient.rays = static_cast<std::uint16_t>(std::min(coefficient.rays + contact.rays, 0xffffU));
     if (contact.seen > 0.0 && contact.seen < contact.sent) {
         coefficient.visibility = static_cast<float>(contact.seen / contact.sent);
+        coefficient.gradientA +=
+            base::Vec2(isFirst ? contact.gradientA : contact.gradientB) - coefficient.shadowA;
+        coefficient.gradientB +=
+            base::Vec2(isFirst ? contact.gradientB : contact.gradientA) - coefficient.shadowB;
     }
     return true;
 }

@@ -24,6 +24,8 @@ struct Coefficient {
     float visibility = 1.0f;
     base::Vec2 gradientA{0.0f};  ///< of the kernel over a, relative (PairFactor)
     base::Vec2 gradientB{0.0f};
+    base::Vec2 shadowA{0.0f};  ///< part of the gradients that partial visibility adds, between elements
+    base::Vec2 shadowB{0.0f};
     float spreadA = 0.0f;  ///< relative deviation of the kernel over a from the linear function
     float spreadB = 0.0f;
     bool isOpen = false;

@@ -6,6 +6,7 @@
 
 #include "core/base/photometry.h"
 #include "core/base/random.h"
+#include "core/hierarchy/local_frame.h"
 #include "core/transport/element_sampler.h"
 
 namespace fluxwalk::transport {
@@ -128,6 +129,29 @@ class Target {
     std::array<Vec2d, 4> flat_{};
 };
 
+/// Directions from one end, and where on it they start.
+struct EndSums {
+    double sent = 0.0;
+    double seen = 0.0;
+    Vec2d sentMoment{0.0};
+    Vec2d seenMoment{0.0};
+
+    void add(double weight, bool isSeen, const Vec2d& local) {
+        sent += weight;
+        sentMoment += weight * local;
+        if (isSeen) {
+            seen += weight;
+            seenMoment += weight * local;
+        }
+    }
+    /// Gradient of the seen kernel less that of the kernel, relative to their means (Stage in
+    /// visibility.cpp).
+    Vec2d shadowGradient(const hierarchy::LocalFrame& frame) const {
+        return seen > 0.0 ? hierarchy::gradientOfMoment(frame, seenMoment / seen - sentMoment / sent)
+                          : Vec2d(0.0);
+    }
+};
+
 }  // namespace
 
 ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
@@ -135,13 +159,14 @@ ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::R
     ContactSample sample;
     std::array<rays::Ray, kBundle> bundle;
     std::array<double, kBundle> weights{};
+    std::array<Vec2d, kBundle> locals;
     std::array<std::uint8_t, kBundle> blocked{};
     unsigned used = 0;
+    EndSums sums;
     const auto trace = [&] {
         rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
         for (unsigned i = 0; i < used; ++i) {
-            sample.sent += weights[i];
-            sample.seen += blocked[i] == 0 ? weights[i] : 0.0;
+            sums.add(weights[i], blocked[i] == 0, locals[i]);
         }
         sample.rays += used;
         used = 0;
@@ -177,14 +202,20 @@ ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::R
                 sine * (around.x * side + around.y * other) + std::sqrt(1.0 - x[2]) * normal;
             if (const auto q = target.meet(p.position, direction, isBack)) {
                 weights[used] = p.measure;
+                locals[used] = p.local;
                 bundle[used++] = rays.segment(p.position, p.normal, *q, target.normal());
                 if (used == kBundle) {
                     trace();
                 }
             }
         }
+        trace();
+        sample.sent += sums.sent;
+        sample.seen += sums.seen;
+        (isSwapped ? sample.gradientB : sample.gradientA) =
+            sums.shadowGradient(hierarchy::localFrame(hierarchy.shape(from).cornerCount));
+        sums = {};
     }
-    trace();
     return sample;
 }
 

@@ -11,6 +11,9 @@ using base::NodeId;
 struct ContactSample {
     double seen = 0.0;  ///< directions whose light arrives, weighed by area
     double sent = 0.0;  ///< directions that meet the other element
+    /// What the shadow adds to the kernel's gradients (VisibilitySample).
+    base::Vec2d gradientA{0.0};
+    base::Vec2d gradientB{0.0};
     unsigned rays = 0;
 };
 

@@ -76,12 +76,7 @@ struct Stage {
         if (seen <= 0.0) {
             return base::Vec2d(0.0);
         }
-        const base::Vec2d moment = seenMoment[end] / seen - weightMoment[end] / weight;
-        const auto xx = static_cast<double>(frame.xx);
-        const auto xy = static_cast<double>(frame.xy);
-        const auto yy = static_cast<double>(frame.yy);
-        return base::Vec2d(yy * moment.x - xy * moment.y, xx * moment.y - xy * moment.x) /
-               (xx * yy - xy * xy);
+        return hierarchy::gradientOfMoment(frame, seenMoment[end] / seen - weightMoment[end] / weight);
     }
     double ratio() const {
         return weight > 0.0 ? seen / weight : 1.0 - static_cast<double>(blockedCount) / count;
