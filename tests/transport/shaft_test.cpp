@@ -38,8 +38,9 @@ Cast castRays(const Built& built, NodeId a, NodeId b, std::size_t rays, std::uin
         const surface::SurfacePoint p = pointOf(a, regions[0]);
         const surface::SurfacePoint q = pointOf(b, regions[1]);
         const Vec3d d = q.position - p.position;
-        // Elements of one plane do not face each other, whatever rounding says.
-        const double least = 1e-5 * glm::length(d);
+        // Both ends are lifted along their own normals: where one is nearly in the other's plane, the lift of
+        // the first may take it below the second.
+        const double least = 2.0 * built.rays.lift();
         if (glm::dot(p.normal, d) > least && glm::dot(q.normal, d) < -least) {
             bundle.push_back(built.rays.segment(p.position, p.normal, q.position, q.normal));
         }
@@ -55,8 +56,6 @@ Cast castRays(const Built& built, NodeId a, NodeId b, std::size_t rays, std::uin
 }
 
 struct Census {
-    std::size_t rays = 0;     ///< in shafts said to be empty
-    std::size_t stopped = 0;  ///< of these
     int pairs = 0;
     int empty = 0;
     int blocked = 0;
@@ -91,15 +90,12 @@ Census takeCensus(const Built& built, std::uint64_t key, int count) {
         EXPECT_EQ(content, inspectShaft(built.tree, b, a, tolerance));
         if (content == ShaftContent::empty) {
             ++census.empty;
-            census.rays += cast.count;
-            census.stopped += cast.blocked;
+            EXPECT_EQ(cast.blocked, 0u) << "of " << cast.count << " in an empty shaft";
         } else {
             ++census.blocked;
             EXPECT_EQ(cast.blocked, cast.count) << "in a blocked shaft";
         }
     }
-    // A ray that grazes an edge may be met in float where it passes in truth.
-    EXPECT_LE(static_cast<double>(census.stopped), 1e-5 * static_cast<double>(census.rays)) << census.rays;
     return census;
 }
 
