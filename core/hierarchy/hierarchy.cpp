@@ -13,15 +13,27 @@ namespace fluxwalk::hierarchy {
 
 namespace {
 
+/// Narrow gaps in front of an element are at most this part of its width across: half a cell, which is a
+/// quarter of its parent's.
+constexpr double kGapOfWidth = 0.125;
+
+// Of a rectangle its shorter side.
+double widthOf(const Shape& shape) {
+    const auto area = static_cast<double>(shape.area);
+    return std::min(std::sqrt(area),
+                    area / std::max(1e-300, std::sqrt(2.0) * static_cast<double>(shape.radius)));
+}
+
 // Whether another patch's box reaches into the inside of this box (shrunk, so that walls that meet at an edge
-// do not count).
+// do not count), or comes close to its flat sides.
 bool touchesOther(const rays::SpatialTree& tree, std::span<const rays::PatchRef> items, const base::Box& box,
                   double margin, std::uint32_t object, std::uint32_t patch) {
+    const double gap = kGapOfWidth * box.diagonal() / std::sqrt(2.0);
     base::Box inner = box;
     for (int i = 0; i < 3; ++i) {
         // Flat boxes grow along their thin axis and shrink along the others.
         const double size = box.upper[i] - box.lower[i];
-        const double shrink = size > 8.0 * margin ? 2.0 * margin : -margin;
+        const double shrink = size > 8.0 * margin ? 2.0 * margin : -std::max(margin, gap);
         inner.lower[i] += shrink;
         inner.upper[i] -= shrink;
     }
@@ -161,10 +173,6 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
     }
     shape.center = Vec3(center);
     shape.radius = static_cast<float>(radius);
-    if (mayHide_[index(id)] != 0) {
-        shape.exposedCells = findExposedCells(*rays_, reached_, surface, at.patch, at.back, region);
-        shape.exposed = exposedFraction(shape.exposedCells);
-    }
     const scene::Object& object = scene_->objects[at.object];
     const scene::RegionMaterial material =
         scene::regionMaterial(*scene_, textures_, object, at.patch, region);
@@ -173,6 +181,18 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
     light.emission =
         at.back && !scene_->materials[object.material].doubleSided ? Rgb(0.0f) : material.emission;
     light.radiosity = light.emission + light.reflectance * light.irradiance;
+    if (mayHide_[index(id)] != 0) {
+        const auto mayEmit = [this](base::ObjectId other) {
+            return scene_->materials[scene_->objects[base::index(other)].material].isEmissive();
+        };
+        const Exposure exposure = findExposure(*rays_, reached_, surface, at.patch, at.back, region,
+                                               0.25 * widthOf(shape), mayEmit, light.emission != Rgb(0.0f));
+        shape.exposedCells = exposure.cells;
+        shape.exposedPlaces = exposure.places;
+        shape.placesOfParent = exposure.placesOfParent;
+        shape.isCovered = exposure.isCovered;
+        shape.exposed = static_cast<float>(exposure.places) / Shape::kPlaces;
+    }
 }
 
 // Makes the exposed area of all ancestors the sum of their children's, so that push and pull stay adjoint.
@@ -180,7 +200,7 @@ void Hierarchy::refreshExposure(NodeId id) {
     for (; id != NodeId::none && kind(id) == NodeKind::element; id = parent(id)) {
         double area = 0.0;
         for (unsigned c = 0; c < 4; ++c) {
-            area += static_cast<double>(shape(child(id, c)).exposedArea());
+            area += static_cast<double>(shape(child(id, c)).areaInParent());
         }
         Shape& shape = shape_[index(id)];
         shape.exposed = shape.area > 0.0f ? static_cast<float>(area / static_cast<double>(shape.area)) : 0.0f;
@@ -230,8 +250,8 @@ void Hierarchy::tabulatePatches() {
 void Hierarchy::sumAreas() {
     areaBefore_.assign(patches_.size() + 1, 0.0);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-        patchTable_.area[i] = shape(patches_[i]).exposedArea();
-        areaBefore_[i + 1] = areaBefore_[i] + static_cast<double>(shape(patches_[i]).exposedArea());
+        patchTable_.area[i] = shape(patches_[i]).sampledArea();
+        areaBefore_[i + 1] = areaBefore_[i] + static_cast<double>(shape(patches_[i]).sampledArea());
     }
     for (std::size_t i = patchRange_.size(); i-- > 0;) {
         if (kind_[i] == NodeKind::cluster) {
@@ -254,7 +274,7 @@ void Hierarchy::pullClusters() {
         float weight = 0.0f;
         for (unsigned c = 0; c < 2; ++c) {
             const std::size_t k = index(firstChild_[i]) + c;
-            const float area = shape_[k].exposedArea();
+            const float area = shape_[k].sampledArea();
             light.radiosity += area * light_[k].radiosity;
             light.irradiance += area * light_[k].irradiance;
             weight += area;
@@ -267,7 +287,7 @@ void Hierarchy::pullClusters() {
         light.irradiance /= weight;
         for (unsigned c = 0; c < 2; ++c) {
             const std::size_t k = index(firstChild_[i]) + c;
-            if (shape_[k].exposedArea() > 0.0f) {
+            if (shape_[k].sampledArea() > 0.0f) {
                 const float off = std::abs(base::channelMean(light_[k].radiosity - light.radiosity));
                 light.residual = std::max(light.residual, off + light_[k].range());
             }
@@ -421,15 +441,10 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
             }
         }
     });
-    bool isHiding = false;
     for (const NodeId parent : leaves) {
         if (mayHide_[index(parent)] != 0) {
             refreshExposure(parent);
-            isHiding = true;
         }
-    }
-    if (isHiding) {
-        sumAreas();
     }
 }
 

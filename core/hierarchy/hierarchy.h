@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -39,17 +40,38 @@ struct Shape {
     Vec3 axis{0, 0, 1};      ///< of the cone of normals, towards the side that takes part
     float halfAngle = 0.0f;  ///< radians
     float area = 0.0f;       ///< true area in m2 (clusters: sum)
-    /// Part of the area outside other solids, as 4 x 4 cells of the element's region: bit 4 j + i is the cell
-    /// with s in [i/4, (i+1)/4).
+    /// Part of the area outside other solids and not in a gap that is narrow at this element's scale
+    /// (exposure.h), as 4 x 4 cells of the element's region: bit 4 j + i is the cell with s in
+    /// [i/4, (i+1)/4).
     std::uint16_t exposedCells = 0xffff;
-    /// Part of the area that receives and sends: from the cells (leaves) or the children (area means).
+    /// Of all places where the cells were looked at, those that are exposed: their part of the area.
+    static constexpr std::uint8_t kPlaces = 80;
+    std::uint8_t exposedPlaces = kPlaces;
+    /// Those of them that are exposed at the parent's scale too: they share in what the parent exchanges.
+    std::uint8_t placesOfParent = kPlaces;
+    /// Part of the area that receives and sends: from the places (leaves) or the children (area means).
     float exposed = 1.0f;
     std::uint8_t cornerCount = 0;  ///< elements: 3 or 4
     bool isPlanar = true;
+    bool isCovered = false;  ///< some cells lie in such a gap: dark, but not inside a solid
     /// Elements: corners on the surface, counter-clockwise seen from the side that takes part.
     std::array<Vec3, 4> corners{};
 
     float exposedArea() const { return area * exposed; }
+    /// Area of the exposed cells, on which light is sampled (clusters: sum over their patches). Somewhat more
+    /// than the exposed area, as rays find what is hidden in them; unlike that, refinement does not change
+    /// it.
+    float sampledArea() const {
+        return cornerCount == 0 ? exposedArea()
+                                : area * static_cast<float>(std::popcount(exposedCells)) / 16.0f;
+    }
+    /// Of the exposed area, the part that the parent's links reach.
+    float partOfParent() const {
+        return exposedPlaces > 0 ? static_cast<float>(placesOfParent) / static_cast<float>(exposedPlaces)
+                                 : 0.0f;
+    }
+    /// Area by which an element counts in its parent: push and pull weigh with it.
+    float areaInParent() const { return exposedArea() * partOfParent(); }
 };
 
 /// Axis-parallel box.
@@ -120,7 +142,7 @@ class Hierarchy {
     std::uint32_t firstPatchBelow(NodeId id) const { return patchRange_[index(id)][0]; }
     const PatchTable& patchTable() const { return patchTable_; }
     /// Exposed area in m2 of the first `count` patches.
-    double exposedAreaBefore(std::size_t count) const { return areaBefore_[count]; }
+    double sampledAreaBefore(std::size_t count) const { return areaBefore_[count]; }
     /// Box about a cluster or patch.
     const Extent& extent(NodeId id) const { return extent_[index(id)]; }
     /// Whether walks of light joined all that is below an element or cluster (ReachedSides::rooms): otherwise

@@ -10,12 +10,13 @@ namespace fluxwalk::hierarchy {
 
 /// Which sides of each object light can reach: [0] the front, [1] the back. A side that is not reached takes
 /// no part in the transport and still blocks; so the inside of a closed solid is told from the room around
-/// it. Of a side that is reached, patches that lie wholly inside other solids (buried.h) take no part either.
+/// it. Of a side that is reached, patches that lie wholly inside other solids (buried.h) or in
+/// dark cavities (cavities.h) take no part either.
 struct ReachedSides {
     std::vector<std::array<bool, 2>> sides;
     /// Where the patches of each object begin in `buried`, and their number at the end.
     std::vector<std::size_t> firstPatch;
-    std::vector<std::uint8_t> buried;  ///< of each patch: bit 0 its front, bit 1 its back
+    std::vector<std::uint8_t> buried;  ///< or in a cavity, of each patch: bit 0 its front, bit 1 its back
     /// Of each side, at object * 2 + (back ? 1 : 0): sides between which walks went have the same number.
     /// Different ones may be sealed off from each other, though they lie on the two sides of one wall.
     std::vector<std::uint32_t> rooms;

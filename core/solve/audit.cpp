@@ -162,7 +162,7 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
         Vec2 middle(0.0f);
         float exposed = 0.0f;
         for (unsigned c = 0; c < 4; ++c) {
-            const float part = h.shape(h.child(id, c)).exposedArea();
+            const float part = h.shape(h.child(id, c)).areaInParent();
             middle += part * Vec2(frame.quarters[c][0], frame.quarters[c][1]);
             exposed += part;
         }
@@ -170,8 +170,9 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
         for (unsigned c = 0; c < 4; ++c) {
             const std::uint32_t child = base::index(h.child(id, c));
             const Vec2 offset = Vec2(frame.quarters[c][0], frame.quarters[c][1]) - middle;
-            sums[child] = sums[i] + glm::dot(offset, slopes[i]);
-            slopes[child] = frame.quarterScale[c] * slopes[i];
+            const float part = h.shape(h.child(id, c)).partOfParent();
+            sums[child] = part * (sums[i] + glm::dot(offset, slopes[i]));
+            slopes[child] = part * frame.quarterScale[c] * slopes[i];
         }
         sums[i] = 0.0f;
     }

@@ -100,7 +100,7 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
             sum += weight * Vec3d(radiosity_[0][i + k], radiosity_[1][i + k], radiosity_[2][i + k]);
         }
     }
-    const float all = view.shares > 0.0f ? view.shares : h.shape(id).exposedArea();
+    const float all = view.shares > 0.0f ? view.shares : h.shape(id).sampledArea();
     return all > 0.0f ? Rgb(sum / static_cast<double>(all)) : Rgb(0.0f);
 }
 
@@ -113,7 +113,7 @@ ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t lin
     if (view.shares > 0.0f) {
         return {view.other, false, power / view.shares};
     }
-    const float area = h.shape(cluster).exposedArea();
+    const float area = h.shape(cluster).sampledArea();
     return {{}, true, area > 0.0f ? power / area : Rgb(0.0f)};
 }
 
@@ -170,7 +170,12 @@ void ClusterExchange::share(std::size_t begin, std::size_t end, std::span<Rgb> o
         }
     }
     for (std::size_t i = 0; i < end - begin; ++i) {
-        out[i] = Rgb(sums[i]) * scaleOf(h.patches()[begin + i]);
+        const hierarchy::Shape& shape = h.shape(h.patches()[begin + i]);
+        // Shares are of the sampled area; what lies hidden in it takes none.
+        const float exposed = shape.exposedArea();
+        out[i] = exposed > 0.0f
+                     ? Rgb(sums[i]) * (scaleOf(h.patches()[begin + i]) * shape.sampledArea() / exposed)
+                     : Rgb(0.0f);
     }
 }
 

@@ -56,7 +56,11 @@ void DisplayUpdate::rebuild(double curvatureAngle) {
                     }
                     const hierarchy::ElementName name = h.name(id);
                     const Rgb e = h.light(id).irradiance;
-                    leaves.push_back({name.patch, name.back, name.path, e, h.shape(id).exposed});
+                    const hierarchy::Shape& shape = h.shape(id);
+                    // What lies in a narrow gap is known to be dark; of what lies in a solid nothing is
+                    // known.
+                    const bool isDark = shape.isCovered && shape.exposedCells == 0;
+                    leaves.push_back({name.patch, name.back, name.path, e, isDark ? 1.0f : shape.exposed});
                     digest = base::mix(digest ^
                                        (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
                                         std::bit_cast<std::uint32_t>(e.g))) +

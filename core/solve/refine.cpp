@@ -215,12 +215,11 @@ class Refinement {
         if (c.isBlocked || (c.coupling <= 0.0f && problem_.options.oracle != OracleKind::strict)) {
             return d;
         }
-        setCoefficient(d.link, c);
-        d.verdict = judge(d.link);
-        if (const unsigned before = c.rays; d.verdict == Verdict::accept && service_.settleContact(pair, c)) {
-            setCoefficient(d.link, c);
+        if (const unsigned before = c.rays; service_.settleContact(pair, c)) {
             counters.rays += c.rays - before;
         }
+        setCoefficient(d.link, c);
+        d.verdict = judge(d.link);
         return d;
     }
 

@@ -32,7 +32,7 @@ std::vector<float> computeRowScaling(const Problem& problem) {
             double weighted = 0.0;
             double area = 0.0;
             for (unsigned c = 0; c < 4; ++c) {
-                const auto part = static_cast<double>(h.shape(h.child(id, c)).exposedArea());
+                const auto part = static_cast<double>(h.shape(h.child(id, c)).areaInParent());
                 weighted += part * static_cast<double>(scale[base::index(h.child(id, c))]);
                 area += part;
             }

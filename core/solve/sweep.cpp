@@ -130,7 +130,8 @@ void Sweeper::gather(const Block& block) {
     }
 }
 
-// What child `child` takes over: the parent's linear function on its quarter. Offsets are taken from the
+// What child `child` takes over: the parent's linear function on its quarter, as far as that is exposed to
+// what the parent meets. Offsets are taken from the
 // children's mean by exposed area, so that the linear part moves no power.
 Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
                                                const LinearIrradiance& from) const {
@@ -141,13 +142,14 @@ Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
     Vec2 mean(0.0f);
     float area = 0.0f;
     for (unsigned c = 0; c < 4; ++c) {
-        const float part = h.shape(h.child(parent, c)).exposedArea();
+        const float part = h.shape(h.child(parent, c)).areaInParent();
         mean += part * Vec2(offsets[c][0], offsets[c][1]);
         area += part;
     }
     const Vec2 offset = Vec2(offsets[child][0], offsets[child][1]) - (area > 0.0f ? mean / area : Vec2(0.0f));
-    const float scale = frame.quarterScale[child];
-    const Rgb value = from.mean + offset.x * from.s + offset.y * from.t;
+    const float part = h.shape(h.child(parent, child)).partOfParent();
+    const float scale = part * frame.quarterScale[child];
+    const Rgb value = part * (from.mean + offset.x * from.s + offset.y * from.t);
     return {value, scale * from.s, scale * from.t};
 }
 
@@ -189,7 +191,7 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
     }
 }
 
-// What a child counts in its parent's radiosity: its exposed area, or (Schaefer, section 1) that area
+// What a child counts in its parent's radiosity: its area in the parent, or (Schaefer, section 1) that area
 // projected on the parent's normal; by area again where no child shows itself in that direction.
 std::array<double, 4> Sweeper::pullWeights(NodeId id) const {
     const hierarchy::Hierarchy& h = problem_.hierarchy;
@@ -198,7 +200,7 @@ std::array<double, 4> Sweeper::pullWeights(NodeId id) const {
     double sum = 0.0;
     for (unsigned c = 0; c < 4; ++c) {
         const hierarchy::Shape& part = h.shape(h.child(id, c));
-        areas[c] = static_cast<double>(part.exposedArea());
+        areas[c] = static_cast<double>(part.areaInParent());
         projected[c] = areas[c] * std::max(0.0, static_cast<double>(glm::dot(part.axis, h.shape(id).axis)));
         sum += projected[c];
     }
@@ -218,7 +220,7 @@ void Sweeper::pull(NodeId id) {
     const std::array<double, 4> weights = pullWeights(id);
     for (unsigned c = 0; c < 4; ++c) {
         const NodeId child = h.child(id, c);
-        const auto part = static_cast<double>(h.shape(child).exposedArea());
+        const auto part = static_cast<double>(h.shape(child).areaInParent());
         radiosity += weights[c] * Vec3d(h.light(child).radiosity);
         weight += weights[c];
         irradiance += part * Vec3d(h.light(child).irradiance);
@@ -239,7 +241,7 @@ void Sweeper::pull(NodeId id) {
         const hierarchy::Light& part = h.light(h.child(id, c));
         // Hidden quarters show nothing: they count as the mean.
         const Rgb rise =
-            h.shape(h.child(id, c)).exposed > 0.0f ? part.radiosity - light.radiosity : Rgb(0.0f);
+            h.shape(h.child(id, c)).areaInParent() > 0.0f ? part.radiosity - light.radiosity : Rgb(0.0f);
         momentX += 0.25f * frame.quarters[c][0] * rise;
         momentY += 0.25f * frame.quarters[c][1] * rise;
         innerS += 0.25f * frame.quarterScale[c] * part.slopeS;
@@ -251,7 +253,7 @@ void Sweeper::pull(NodeId id) {
     light.residual = 0.0f;
     for (unsigned c = 0; c < 4; ++c) {
         const NodeId child = h.child(id, c);
-        if (h.shape(child).exposed <= 0.0f) {
+        if (h.shape(child).areaInParent() <= 0.0f) {
             continue;
         }
         const Rgb linear =

@@ -157,8 +157,8 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
         return result;
     }
     const auto shares = static_cast<double>(sumShares(h, cluster, ball));
-    result.coupling =
-        received.power * correct(shares, received) * static_cast<double>(h.shape(element).exposed);
+    result.coupling = received.power * correct(shares, received) *
+                      static_cast<double>(h.shape(element).sampledArea() / h.shape(element).area);
     result.spreadA = received.spread;
     const Lanes atElement =
         hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);

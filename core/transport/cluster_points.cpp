@@ -10,18 +10,18 @@ ClusterSampler::ClusterSampler(const hierarchy::Hierarchy& hierarchy, NodeId clu
     : hierarchy_(hierarchy),
       begin_(hierarchy.firstPatchBelow(cluster)),
       end_(begin_ + static_cast<std::uint32_t>(hierarchy.patchesBelow(cluster).size())),
-      before_(hierarchy.exposedAreaBefore(begin_)),
-      area_(hierarchy.exposedAreaBefore(end_) - before_) {}
+      before_(hierarchy.sampledAreaBefore(begin_)),
+      area_(hierarchy.sampledAreaBefore(end_) - before_) {}
 
 ClusterSampler::Place ClusterSampler::at(double place, double across) const {
     const double wanted = before_ + place * area_;
     std::uint32_t first = begin_;
     for (std::uint32_t last = end_; last - first > 1;) {
         const std::uint32_t middle = first + (last - first) / 2;
-        (hierarchy_.exposedAreaBefore(middle) <= wanted ? first : last) = middle;
+        (hierarchy_.sampledAreaBefore(middle) <= wanted ? first : last) = middle;
     }
-    const double below = hierarchy_.exposedAreaBefore(first);
-    const double size = hierarchy_.exposedAreaBefore(first + 1) - below;
+    const double below = hierarchy_.sampledAreaBefore(first);
+    const double size = hierarchy_.sampledAreaBefore(first + 1) - below;
     const double along = size > 0.0 ? std::clamp((wanted - below) / size, 0.0, 1.0 - 0x1.0p-30) : 0.5;
     const ElementSampler sampler(hierarchy_, hierarchy_.patches()[first]);
     Place result{first, sampler.inExposed({along, across})};
@@ -38,7 +38,7 @@ ClusterPoints makeClusterPoints(const hierarchy::Hierarchy& hierarchy, NodeId cl
     const ClusterSampler sampler(hierarchy, cluster);
     const std::uint32_t begin = hierarchy.firstPatchBelow(cluster);
     const std::size_t count = hierarchy.patchesBelow(cluster).size();
-    const double all = hierarchy.exposedAreaBefore(begin + count) - hierarchy.exposedAreaBefore(begin);
+    const double all = hierarchy.sampledAreaBefore(begin + count) - hierarchy.sampledAreaBefore(begin);
     base::RandomStream random(base::combine(hierarchy.key(cluster), 0xc1));
     ClusterPoints points;
     for (unsigned k = 0; k < kClusterPoints; ++k) {

@@ -107,7 +107,7 @@ void limitToExposed(const hierarchy::Hierarchy& h, NodeId id, const ElementPoint
 // Scales the gradients down where the link, taken alone, would send back more than it got: gradients of
 // peaked kernels are steeper than what a linear function over a whole element can hold.
 void limitGradients(const hierarchy::Shape& a, const hierarchy::Shape& b, Coefficient& c) {
-    const double areas = static_cast<double>(a.exposedArea()) * static_cast<double>(b.exposedArea());
+    const double areas = static_cast<double>(a.sampledArea()) * static_cast<double>(b.sampledArea());
     const auto transfer = static_cast<double>(c.coupling * c.visibility);
     if (!(areas > 0.0) || !(transfer > 0.0)) {
         return;
@@ -162,8 +162,8 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
     }
     const PairFactor factor = computeClusterFactor(hierarchy_, query.a, query.b);
     // Points of clusters that overlap may come too near to each other; nothing sends more than it has.
-    out.coupling = std::min({static_cast<float>(factor.coupling), hierarchy_.shape(query.a).exposedArea(),
-                             hierarchy_.shape(query.b).exposedArea()});
+    out.coupling = std::min({static_cast<float>(factor.coupling), hierarchy_.shape(query.a).sampledArea(),
+                             hierarchy_.shape(query.b).sampledArea()});
     out.gradientA = base::Vec2(factor.gradientA);
     out.gradientB = base::Vec2(factor.gradientB);
     out.spreadA = static_cast<float>(factor.spreadA);
@@ -211,8 +211,10 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         limitToExposed(hierarchy_, query.a, b, coupling, out.gradientA);
         limitToExposed(hierarchy_, query.b, a, coupling, out.gradientB);
     } else {
+        const hierarchy::Shape& shapeA = hierarchy_.shape(query.a);
+        const hierarchy::Shape& shapeB = hierarchy_.shape(query.b);
         coupling *=
-            static_cast<double>(hierarchy_.shape(query.a).exposed * hierarchy_.shape(query.b).exposed);
+            static_cast<double>(shapeA.sampledArea() / shapeA.area * (shapeB.sampledArea() / shapeB.area));
     }
     out.coupling = static_cast<float>(coupling);
     if (out.coupling <= 0.0f || query.isOpen) {
@@ -249,7 +251,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
 bool CoefficientService::settleContact(const Query& query, Coefficient& coefficient) const {
     const hierarchy::Shape& a = hierarchy_.shape(query.a);
     const hierarchy::Shape& b = hierarchy_.shape(query.b);
-    const float least = std::min(a.exposedArea(), b.exposedArea());
+    const float least = std::min(a.sampledArea(), b.sampledArea());
     if (!coefficient.isMixed || hierarchy_.kind(query.b) != hierarchy::NodeKind::element || !a.isPlanar ||
         !b.isPlanar || glm::distance(a.center, b.center) >= a.radius + b.radius ||
         coefficient.coupling <= kContactFactor * least) {
@@ -276,7 +278,7 @@ Coefficient CoefficientService::fromSource(const Query& query) const {
     Coefficient out;
     const ElementPoints a = makeElementPoints(hierarchy_, query.a);
     factorFromSource(a, hierarchy_, query.b, out);
-    out.coupling *= hierarchy_.shape(query.a).exposed;
+    out.coupling *= hierarchy_.shape(query.a).sampledArea() / hierarchy_.shape(query.a).area;
     if (out.coupling <= 0.0f) {
         return out;
     }

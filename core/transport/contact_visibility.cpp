@@ -171,8 +171,8 @@ ContactSample sampleContact(const hierarchy::Hierarchy& hierarchy, const rays::R
         sample.rays += used;
         used = 0;
     };
-    const double areaA = static_cast<double>(hierarchy.shape(a).exposedArea());
-    const double areaB = static_cast<double>(hierarchy.shape(b).exposedArea());
+    const double areaA = static_cast<double>(hierarchy.shape(a).sampledArea());
+    const double areaB = static_cast<double>(hierarchy.shape(b).sampledArea());
     // Of the tries from both ends, 2 g / (A_a + A_b) meet the other.
     const double all = std::min<double>(kTries, kEnough * 0.5 * (areaA + areaB) / coupling);
     for (const bool isSwapped : {false, true}) {

@@ -27,7 +27,7 @@ ExposedPart findExposedPart(const hierarchy::Hierarchy& hierarchy, NodeId id,
         }
     }
     ExposedPart part;
-    part.share = all > 0.0 ? exposed / all : static_cast<double>(shape.exposed);
+    part.share = all > 0.0 ? exposed / all : static_cast<double>(shape.sampledArea() / shape.area);
     if (!(exposed > 0.0)) {
         return part;
     }

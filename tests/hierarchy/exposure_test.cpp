@@ -51,7 +51,7 @@ void expectAncestorsToSum(const Hierarchy& tree) {
         }
         double sum = 0.0;
         for (unsigned c = 0; c < 4; ++c) {
-            sum += static_cast<double>(tree.shape(tree.child(id, c)).exposedArea());
+            sum += static_cast<double>(tree.shape(tree.child(id, c)).areaInParent());
         }
         const Shape& shape = tree.shape(id);
         EXPECT_NEAR(static_cast<double>(shape.exposedArea()), sum, 1e-6 * static_cast<double>(shape.area));
@@ -156,10 +156,56 @@ TEST(Exposure, nothingIsHiddenWhereNothingTouches) {
     EXPECT_NEAR(built.tree.totalArea(), 16.0 + 2 * 64.0 + 16.0 - 64.0 + 2 * 1.0 + 4 * 0.5 - 16.0, 1e-4);
 }
 
-TEST(Exposure, fraction) {
-    EXPECT_EQ(hierarchy::exposedFraction(0), 0.0f);
-    EXPECT_EQ(hierarchy::exposedFraction(0xffff), 1.0f);
-    EXPECT_EQ(hierarchy::exposedFraction(0x0101), 0.125f);
+// A plate of 2 x 2 m over the middle of the floor, thick enough that its top is nowhere near.
+scene::Quads plateAbove(double gap) {
+    return boxFaces({1, gap, 1}, {3, gap + 0.5, 3}, scene::kAround | scene::kBottom | scene::kTop);
+}
+
+TEST(Exposure, aNarrowGapIsDarkAtItsScale) {
+    // Cells of the floor are 1 m, those of the plate's underside 0.5 m.
+    for (const double gap : {0.02, 0.1}) {
+        const Built built(floorUnder(plateAbove(gap)));
+        const Shape& floor = built.tree.shape(built.tree.patchNode(0, 0, false));
+        EXPECT_EQ(floor.exposedCells, 0xf99f) << gap;
+        EXPECT_FLOAT_EQ(floor.exposedArea(), 12.0f);
+        EXPECT_TRUE(floor.isCovered);
+    }
+    const Built wide(floorUnder(plateAbove(0.3)));
+    EXPECT_EQ(wide.tree.shape(wide.tree.patchNode(0, 0, false)).exposedCells, 0xffff);
+    EXPECT_FALSE(wide.tree.shape(wide.tree.patchNode(0, 0, false)).isCovered);
+}
+
+TEST(Exposure, refinementOpensAGapButNotToTheParentsLight) {
+    Built built(floorUnder(plateAbove(0.1)));
+    const NodeId floor = built.tree.patchNode(0, 0, false);
+    built.split(2);  // elements of 1 m, cells of 0.25 m: the gap is 0.4 of one and 0.2 of their parents'
+    int opened = 0;
+    for (const NodeId leaf : built.leavesOf(floor)) {
+        const Shape& shape = built.tree.shape(leaf);
+        const bool isUnder = std::abs(shape.center.x - 2.0f) < 1.0f && std::abs(shape.center.z - 2.0f) < 1.0f;
+        EXPECT_EQ(shape.exposedCells, 0xffff);
+        if (isUnder) {
+            ++opened;
+            // At most the cells at the plate's rim show to both scales.
+            EXPECT_LE(shape.partOfParent(), 0.5f);
+        } else {
+            EXPECT_EQ(shape.partOfParent(), 1.0f);
+        }
+    }
+    EXPECT_EQ(opened, 4);
+    const Shape& whole = built.tree.shape(floor);
+    EXPECT_GE(whole.exposedArea(), 12.0f - 1e-4f);
+    EXPECT_LE(whole.exposedArea(), 14.0f);
+}
+
+TEST(Exposure, aGapInWhichALampShinesIsNone) {
+    scene::Scene scene = floorUnder({});
+    scene::addPolygons(scene, "panel", 1, plateAbove(0.02));
+    const Built built(std::move(scene));
+    EXPECT_EQ(built.tree.shape(built.tree.patchNode(0, 0, false)).exposedCells, 0xffff);
+    for (const NodeId id : built.tree.patches()) {
+        EXPECT_FALSE(built.tree.shape(id).isCovered);
+    }
 }
 
 }  // namespace

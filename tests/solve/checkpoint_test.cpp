@@ -64,7 +64,7 @@ void expectSameBits(const Solver& one, const Solver& other) {
     }
     EXPECT_EQ(different, 0u) << "of " << h.nodeCount() << " nodes";
     EXPECT_EQ(h.leafCount(), k.leafCount());
-    EXPECT_EQ(h.exposedAreaBefore(h.patches().size()), k.exposedAreaBefore(k.patches().size()));
+    EXPECT_EQ(h.sampledAreaBefore(h.patches().size()), k.sampledAreaBefore(k.patches().size()));
 
     const hierarchy::LinkStore& links = one.problem().links;
     ASSERT_EQ(links.links.size(), other.problem().links.links.size());
