@@ -20,17 +20,34 @@ double facing(const Point& a, const Point& b, const Vec3d& to) {
     return std::max(0.0, glm::dot(a.normal, to)) * std::max(0.0, -glm::dot(b.normal, to));
 }
 
-bool facesAll(const Vec3d& x, const ElementGrid& source) {
+/// From this ratio of its sides on, the points of an element stand too far apart for sums over them.
+constexpr double kElongated = 6.0;
+
+// Least cosine at which the points of a source must show themselves, so that its contour stands for it. On
+// long hollow ones (the inside of a cord) that is far better than a sum over points even where they are seen
+// along the surface.
+double leastFacingOf(const ElementGrid& grid) {
+    const auto between = [&grid](std::size_t i, std::size_t j) {
+        return glm::distance(grid.points[i].position, grid.points[j].position);
+    };
+    // A triangle's points crowd at one corner.
+    const double along = std::max(between(0, 3), between(12, 15));
+    const double across = std::max(between(0, 12), between(3, 15));
+    return std::max(along, across) > kElongated * std::min(along, across) ? 0.0 : kLeastFacing;
+}
+
+bool facesAll(const Vec3d& x, const ElementGrid& source, double leastFacing) {
     return std::all_of(source.points.begin(), source.points.end(), [&](const ElementGrid::Point& p) {
         const Vec3d to = x - p.position;
         const double there = glm::dot(p.normal, to);
-        return there > 0.0 && there * there > kLeastFacing * kLeastFacing * glm::dot(to, to);
+        return there > 0.0 && there * there > leastFacing * leastFacing * glm::dot(to, to);
     });
 }
 
-double pointFactor(const ElementGrid::Point& x, const ElementPoints& source, const ElementGrid& grid) {
+double pointFactor(const ElementGrid::Point& x, const ElementPoints& source, const ElementGrid& grid,
+                   double leastFacing) {
     const bool isFlatInFront = source.isFlat && glm::dot(source.axis, x.position - source.center) > 0.0;
-    if (isFlatInFront || (!source.isFlat && facesAll(x.position, grid))) {
+    if (isFlatInFront || (!source.isFlat && facesAll(x.position, grid, leastFacing))) {
         return pointToPolygon(x.position, x.normal, std::span(source.contour.data(), source.contourCount));
     }
     if (source.isFlat) {
@@ -48,9 +65,10 @@ double pointFactor(const ElementGrid::Point& x, const ElementPoints& source, con
 }
 
 double meanFactor(const ElementGrid& receiver, const ElementPoints& source, const ElementGrid& grid) {
+    const double leastFacing = leastFacingOf(grid);
     double mean = 0.0;
     for (const ElementGrid::Point& x : receiver.points) {
-        mean += x.weight * pointFactor(x, source, grid);
+        mean += x.weight * pointFactor(x, source, grid, leastFacing);
     }
     return mean;
 }
@@ -136,7 +154,15 @@ PairFactor computeSelfFactor(const ElementPoints& element, const SelfGrid& grid)
         return result;
     }
     const double mean = sum / weights;
-    result.coupling = element.area * element.area * mean;
+    // Of what an element sends in one direction it meets at most what faces against that direction, so the
+    // length of its mean normal is the least part that leaves it. On long ones that is nearly what leaves,
+    // where the points stand too far apart for their sum.
+    Vec3d normal(0.0);
+    for (const SelfGrid::Point& p : grid.points) {
+        normal += p.weight * p.normal;
+    }
+    const double most = std::max(0.0, 1.0 - glm::length(normal));
+    result.coupling = element.area * std::min(most, element.area * mean);
     result.spreadA = result.spreadB = std::max(largest - mean, mean - least) / mean;
     return result;
 }

@@ -32,7 +32,7 @@ double computeTouchingCoupling(const ElementPoints& a, const ElementGrid& gridA,
                                const ElementGrid& gridB);
 
 /// Exchange of an element with itself, from all pairs of its points: on a smooth hollow surface the kernel
-/// stays finite where they meet. Gradients are 0, the spreads are the largest deviation of the kernel.
+/// stays finite where they meet. No more than can stay on it by its normals. Gradients are 0, the spreads are the largest deviation of the kernel.
 PairFactor computeSelfFactor(const ElementPoints& element, const SelfGrid& grid);
 
 }  // namespace fluxwalk::transport

@@ -138,6 +138,30 @@ TEST(TouchingFactor, octantsOfASphereExchangeByTheirAreas) {
     EXPECT_GE(touching, 8 * 6);
 }
 
+// The inside of a cord: its four patches are hundreds of times as long as wide, and all that they send stays
+// in it but for what leaves at its ends, which is as much as two disks send in. Light would grow without end
+// where the rows summed to more than 1.
+TEST(TouchingFactor, theInsideOfACordClosesToItsEnds) {
+    constexpr double kRadius = .003;
+    constexpr double kHeight = 1.8;
+    scene::Scene scene = test::glowingScene("cord");
+    test::addCurved(scene, "cord",
+                    std::make_shared<surface::Cylinder>(test::leaningAt({1, 2, 3}), kRadius, kHeight, true));
+    Built built(std::move(scene));
+    // A quarter of an infinitely long circle keeps what does not pass its chord.
+    const double kept = 1.0 - 2.0 * std::sqrt(2.0) / kPi;
+    const double atEnds = kRadius / kHeight;
+    for (int level = 0; level < 3; ++level) {
+        const std::vector<NodeId> side =
+            leavesWhere(built, [&](NodeId id) { return !built.tree.name(id).back; });
+        if (level == 0) {
+            EXPECT_NEAR(couplingOf(built, side[0], side[0]) / areaOf(built, {side[0]}), kept, .001);
+        }
+        EXPECT_NEAR(sumCouplings(built, side, side) / areaOf(built, side), 1.0 - atEnds, .01) << level;
+        built.split(1);
+    }
+}
+
 TEST(TouchingFactor, whatBendsAwayExchangesNothing) {
     scene::Scene scene = test::glowingScene("sphere");
     test::addCurved(scene, "sphere", std::make_shared<surface::Sphere>(Vec3d(1, 2, 3), 1.0));
