@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/builders.h"
+#include "core/surface/disk.h"
 #include "core/surface/sphere.h"
+#include "core/surface/torus.h"
 #include "core/transport/exact_form_factor.h"
 #include "tests/transport/polygon_pairs.h"
 
@@ -102,6 +104,55 @@ TEST(Coefficients, inASphereAreExact) {
         EXPECT_EQ(c.spreadA, 0.0f);
         EXPECT_EQ(c.visibility, 1.0f);
     }
+}
+
+// A torus that lies on a ring of its own radius: near the circle where they meet part of the ring is hidden,
+// and the rest can send no more than all it has.
+TEST(Coefficients, sendNoMoreThanWhatIsExposed) {
+    scene::Scene scene = test::sceneOf({});
+    const base::Mat4d place(1.0);
+    base::Mat4d above(1.0);
+    above[3] = {0.0, .06, 0.0, 1.0};
+    scene.objects.push_back({"ring", std::make_shared<surface::Disk>(place, .3, .22), 0});
+    scene.objects.push_back({"torus", std::make_shared<surface::Torus>(above, .22, .06), 0});
+    // Far away, so that rays leave a surface from so high that the gap is hidden.
+    scene.objects.push_back({"far", std::make_shared<surface::Sphere>(base::Vec3d(120, 50, 90), .1), 0});
+    Built built(std::move(scene));
+    const auto isAtContact = [&](NodeId id) {
+        const hierarchy::ElementName name = built.tree.name(id);
+        const hierarchy::Shape& shape = built.tree.shape(id);
+        const float away = std::abs(glm::length(base::Vec2(shape.center.x, shape.center.z)) - .22f);
+        return !name.back && name.patch % 4 == 0 && shape.center.x > 0.f && away < shape.radius &&
+               ((name.object == 0) || (name.object == 1 && shape.center.y - shape.radius < .01f));
+    };
+    for (int i = 0; i < 3; ++i) {
+        built.split(1, isAtContact);
+    }
+    std::array<std::vector<NodeId>, 2> ends;
+    for (std::uint32_t i = 0; i < built.tree.nodeCount(); ++i) {
+        const NodeId id{i};
+        if (built.tree.kind(id) == hierarchy::NodeKind::element && built.tree.name(id).object < 2 &&
+            isAtContact(id)) {
+            ends[built.tree.name(id).object].push_back(id);
+        }
+    }
+    const CoefficientService service(built.tree, built.rays);
+    int close = 0;
+    int hiding = 0;
+    for (const NodeId a : ends[0]) {
+        hiding += built.tree.shape(a).exposed < 1.0f ? 1 : 0;
+        for (const NodeId b : ends[1]) {
+            const Query query{a, b, false};
+            Coefficient c;
+            service.compute(std::span(&query, 1), std::span(&c, 1));
+            const float least =
+                std::min(built.tree.shape(a).exposedArea(), built.tree.shape(b).exposedArea());
+            EXPECT_LE(c.coupling, least);
+            close += c.coupling > .5f * least ? 1 : 0;
+        }
+    }
+    EXPECT_GT(close, 10);
+    EXPECT_GT(hiding, 5);
 }
 
 }  // namespace
