@@ -81,8 +81,7 @@ PairFactor factorOf(const hierarchy::Hierarchy& h, const Query& query, const Ele
     if (factor.coupling <= 0.0 || !isCurvedContact(a, b)) {
         return factor;
     }
-    return computePairFactor(
-        a, b, computeTouchingCoupling(a, makeElementGrid(h, query.a), b, makeElementGrid(h, query.b)));
+    return computePairFactor(a, b, computeTouchingCoupling(h, query.a, a, query.b, b));
 }
 
 // Leaves of a pair's coefficient what element `id`'s exposed cells exchange with `other`.
