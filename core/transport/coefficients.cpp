@@ -84,9 +84,8 @@ PairFactor factorOf(const hierarchy::Hierarchy& h, const Query& query, const Ele
     if (query.a == query.b) {
         return computeSelfFactor(a, makeSelfGrid(h, query.a));
     }
-    const PairFactor factor = computePairFactor(a, b);
-    if (factor.coupling <= 0.0 || !isCurvedContact(a, b)) {
-        return factor;
+    if (!isCurvedContact(a, b)) {
+        return computePairFactor(a, b);
     }
     return computePairFactor(a, b, computeTouchingCoupling(h, query.a, a, query.b, b));
 }
