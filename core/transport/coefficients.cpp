@@ -22,10 +22,6 @@ namespace {
 /// other, the kernel's peak at the contact counts.
 constexpr float kContactFactor = 0.01f;
 
-/// Touching curved elements of which no point sees a point of the other exchange nothing, unless closer
-/// looks find this part of the smaller one's light: rounding at the horizon would lead light through walls.
-constexpr double kHiddenFactor = 0.01;
-
 // Kernel in 1/m2 at the edge of a light's range, where that may lie within the element though none of its
 // points is reached.
 double reachedBetweenPoints(const ElementPoints& e, const hierarchy::Hierarchy& h, NodeId source) {
@@ -89,14 +85,10 @@ PairFactor factorOf(const hierarchy::Hierarchy& h, const Query& query, const Ele
         return computeSelfFactor(a, makeSelfGrid(h, query.a));
     }
     const PairFactor factor = computePairFactor(a, b);
-    if (!isCurvedContact(a, b)) {
+    if (factor.coupling <= 0.0 || !isCurvedContact(a, b)) {
         return factor;
     }
-    const double coupling = computeTouchingCoupling(h, query.a, a, query.b, b);
-    if (factor.coupling <= 0.0 && coupling <= kHiddenFactor * std::min(a.area, b.area)) {
-        return factor;
-    }
-    return computePairFactor(a, b, coupling);
+    return computePairFactor(a, b, computeTouchingCoupling(h, query.a, a, query.b, b));
 }
 
 // Leaves of a pair's coefficient what element `id`'s exposed cells exchange with `other`.

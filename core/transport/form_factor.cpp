@@ -308,8 +308,6 @@ PairFactor combine(const ElementPoints& a, const ElementPoints& b, const BothWay
     }
     const double highest = std::max(a.area * atA.largest, b.area * atB.largest);
     if (highest <= 0.0) {
-        // No point shows how what is known to be exchanged varies: perhaps by all of it.
-        result.spreadA = result.spreadB = result.coupling > 0.0 ? 1.0 : 0.0;
         return result;
     }
     if (result.coupling <= 1e-3 * highest) {

@@ -24,9 +24,6 @@ double facing(const Point& a, const Point& b, const Vec3d& to) {
 /// area.
 constexpr double kCutWithin = 2.0;
 
-/// From this ratio of areas on, a touching pair's exchange is seen from the smaller element alone.
-constexpr double kMuchLarger = 2.0;
-
 /// From this ratio of its sides on, the points of an element stand too far apart for sums over them.
 constexpr double kElongated = 6.0;
 
@@ -80,78 +77,30 @@ ElementGrid::Point pointAt(const ElementSampler& sampler, bool isTriangle, const
     return {p.position, p.normal, p.measure * (isTriangle ? at.x : 1.0)};
 }
 
-// How many of a cell's middle and corners x and they face each other; the corners run counter-clockwise seen
-// from the front.
-unsigned countFacing(const ElementGrid::Point& x, const Source& source, const GridCell& cell,
-                     const ElementGrid::Point& middle, std::array<Vec3d, 4>& corners) {
-    const bool isTriangle = source.points.cornerCount == 3;
-    const std::array<base::Vec2d, 4> at{cell.lower, base::Vec2d(cell.upper.x, cell.lower.y), cell.upper,
-                                        base::Vec2d(cell.lower.x, cell.upper.y)};
-    const auto isFacing = [&x](const ElementGrid::Point& p) {
-        const Vec3d to = x.position - p.position;
-        return glm::dot(p.normal, to) > 0.0 && glm::dot(x.normal, to) < 0.0;
-    };
-    unsigned count = isFacing(middle) ? 1u : 0u;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const ElementGrid::Point corner = pointAt(source.sampler, isTriangle, at[i]);
-        corners[i] = corner.position;
-        count += isFacing(corner) ? 1u : 0u;
-    }
-    if (glm::dot(glm::cross(corners[2] - corners[0], corners[3] - corners[1]), middle.normal) < 0.0) {
-        std::swap(corners[1], corners[3]);
-    }
-    return count;
-}
-
-// Factor of a cell that x is near to. Where all of it faces x its contour says it, however near x is;
-// neighbours share their edges, whose curving then cancels. Else it is quartered, until its parts are farther
-// away than they are wide; what is left within 2^-kMostCuts of the cell counts as a disc.
-double nearCellFactor(const ElementGrid::Point& x, const Source& source, const GridCell& cell,
-                      const ElementGrid::Point& middle, unsigned cuts) {
+// Factor of a cell that x is near to: quartered until its parts are farther away than they are wide. What is
+// left within 2^-kMostCuts of the cell lies so near that it fills a part of the view which the disc knows.
+double cutCell(const ElementGrid::Point& x, const Source& source, const GridCell& cell, unsigned cuts) {
     constexpr unsigned kMostCuts = 5;
-    constexpr unsigned kAll = 5;
-    if (cuts > 0) {
-        std::array<Vec3d, 4> corners;
-        const unsigned count = countFacing(x, source, cell, middle, corners);
-        if (count == kAll || cuts == kMostCuts) {
-            return pointToPolygon(x.position, x.normal, corners);
-        }
-        if (count == 0 && cuts > 2) {
-            return 0.0;
-        }
-    }
     const base::Vec2d half = 0.5 * (cell.upper - cell.lower);
     double sum = 0.0;
     for (unsigned i = 0; i < 4; ++i) {
         const base::Vec2d lower = cell.lower + base::Vec2d(i & 1u, i >> 1) * half;
-        const ElementGrid::Point y =
-            pointAt(source.sampler, source.points.cornerCount == 3, lower + 0.5 * half);
-        const double part = source.points.area * source.grid.scale * y.weight * half.x * half.y;
+        ElementGrid::Point y = pointAt(source.sampler, source.points.cornerCount == 3, lower + 0.5 * half);
+        const double area = source.points.area * source.grid.scale * y.weight * half.x * half.y;
         const Vec3d to = y.position - x.position;
-        sum += glm::dot(to, to) < kCutWithin * part
-                   ? nearCellFactor(x, source, {lower, lower + half}, y, cuts + 1)
-                   : part * discKernel(x, y, part);
+        if (cuts < kMostCuts && glm::dot(to, to) < kCutWithin * area) {
+            sum += cutCell(x, source, {lower, lower + half}, cuts + 1);
+        } else {
+            sum += area * discKernel(x, y, area);
+        }
     }
     return sum;
-}
-
-// Whether x is near to a part of the source that is below its horizon or about to be: of the contour there,
-// which follows the edges roughly, too much would be cut off.
-bool hoversBelowHorizon(const ElementGrid::Point& x, const Source& source) {
-    return source.leastFacing > 0.0 &&
-           std::any_of(source.grid.points.begin(), source.grid.points.end(),
-                       [&](const ElementGrid::Point& p) {
-                           const Vec3d to = p.position - x.position;
-                           return glm::dot(x.normal, to) <= 0.0 &&
-                                  glm::dot(to, to) < kCutWithin * source.points.area * p.weight;
-                       });
 }
 
 double pointFactor(const ElementGrid::Point& x, const Source& source) {
     const ElementPoints& points = source.points;
     const bool isFlatInFront = points.isFlat && glm::dot(points.axis, x.position - points.center) > 0.0;
-    if (isFlatInFront || (!points.isFlat && facesAll(x.position, source.grid, source.leastFacing) &&
-                          !hoversBelowHorizon(x, source))) {
+    if (isFlatInFront || (!points.isFlat && facesAll(x.position, source.grid, source.leastFacing))) {
         return pointToPolygon(x.position, x.normal, std::span(points.contour.data(), points.contourCount));
     }
     if (points.isFlat) {
@@ -166,7 +115,7 @@ double pointFactor(const ElementGrid::Point& x, const Source& source) {
             const double area = points.area * y.weight;
             const Vec3d to = y.position - x.position;
             if (glm::dot(to, to) < kCutWithin * area) {
-                sum += nearCellFactor(x, source, {{kEnds[i], kEnds[j]}, {kEnds[i + 1], kEnds[j + 1]}}, y, 0);
+                sum += cutCell(x, source, {{kEnds[i], kEnds[j]}, {kEnds[i + 1], kEnds[j + 1]}}, 1);
             } else {
                 sum += area * discKernel(x, y, area);
             }
@@ -232,18 +181,8 @@ double computeTouchingCoupling(const hierarchy::Hierarchy& hierarchy, NodeId idA
     const ElementGrid gridB = makeElementGrid(hierarchy, idB);
     const ElementSampler onA(hierarchy, idA);
     const ElementSampler onB(hierarchy, idB);
-    const auto viewFromA = [&] { return a.area * meanFactor(gridA, {b, gridB, onB, leastFacingOf(gridB)}); };
-    const auto viewFromB = [&] { return b.area * meanFactor(gridB, {a, gridA, onA, leastFacingOf(gridA)}); };
-    // Few points of a large element, or none, lie before a small one that touches it. (Foot of a column on
-    // its torus: the factors of like elements of the shaft vary by 1 % instead of 20 to 30 %.)
-    if (a.isFlat == b.isFlat && b.area > kMuchLarger * a.area) {
-        return viewFromA();
-    }
-    if (a.isFlat == b.isFlat && a.area > kMuchLarger * b.area) {
-        return viewFromB();
-    }
-    const double fromA = viewFromA();
-    const double fromB = viewFromB();
+    const double fromA = a.area * meanFactor(gridA, {b, gridB, onB, leastFacingOf(gridB)});
+    const double fromB = b.area * meanFactor(gridB, {a, gridA, onA, leastFacingOf(gridA)});
     // Where surfaces lie upon each other the points of one stand over this or that element of the other: only
     // the view from its own points adds up to no more than 1 for an element.
     constexpr double kCloseShare = 0.6;

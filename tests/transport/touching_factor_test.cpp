@@ -6,10 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/photometry.h"
-#include "core/base/random.h"
-#include "core/scene/polygons.h"
-#include "core/scene/shapes.h"
-#include "core/transport/element_sampler.h"
 #include "core/transport/gauss_points.h"
 #include "tests/support/built.h"
 #include "tests/support/curved_scenes.h"
@@ -338,66 +334,6 @@ TEST(TouchingFactor, pointsOfAnElementWeighItsTrueArea) {
             const Vec3d vector = glm::abs(flux) * .5 * kPi;
             // The rule's 8 x 8 points leave 6e-5.
             EXPECT_NEAR(glm::length(vector - Vec3d(.25 * kPi)), 0.0, 1e-4);
-        }
-    }
-}
-
-// Share of cosine-distributed rays from a leaf that meet an object first.
-double shareThatMeets(const Built& built, NodeId leaf, std::uint32_t object, unsigned count) {
-    const transport::ElementSampler sampler(built.tree, leaf);
-    base::RandomStream random(5);
-    unsigned met = 0;
-    for (unsigned i = 0; i < count; ++i) {
-        const transport::SurfaceSample p = sampler.at(random.next2());
-        const Vec2d u = random.next2();
-        const Vec3d side = glm::normalize(glm::cross(p.normal, Vec3d(0, 1, 0)));
-        const Vec3d direction = std::sqrt(u.x) * (std::cos(2.0 * kPi * u.y) * side +
-                                                  std::sin(2.0 * kPi * u.y) * glm::cross(p.normal, side)) +
-                                std::sqrt(1.0 - u.x) * p.normal;
-        const auto hit = built.rays.closest(built.rays.halfLine(p.position, p.normal, direction));
-        met += hit && base::index(hit->object) == object ? 1u : 0u;
-    }
-    return static_cast<double>(met) / count;
-}
-
-// The shaft's foot runs along the torus' inner circle, so that both lie upon each other there. All leaves of
-// one row are alike; what they get from the torus must be, too, however the torus is cut.
-TEST(TouchingFactor, isAlikeAllAroundTheFootOfAColumn) {
-    struct Levels {
-        unsigned shaft;
-        unsigned torus;
-    };
-    for (const Levels& levels : {Levels{4, 0}, Levels{5, 0}, Levels{5, 1}, Levels{5, 2}, Levels{6, 3}}) {
-        constexpr double kFoot = 0.18;
-        scene::Scene scene;
-        const std::uint32_t stone = scene::addMaterial(scene, "stone", base::Rgb(0.7f));
-        scene::addTorus(scene, "base", stone, {0.0, kFoot, 0.0}, 0.22, 0.06);
-        scene::addCylinder(scene, "shaft", stone, {0.0, kFoot, 0.0}, 0.16, 2.45);
-        scene::addPolygons(scene, "room", stone, scene::boxFaces({-4, -0.5, -4}, {4, 4, 4}, 63, true));
-        scene.lights.emplace_back();
-        scene.lights.back().position = {3.0, 2.0, 1.0};
-        scene.lights.back().intensity = base::Rgb(100.0f);
-        Built built(std::move(scene));
-        const auto isTorus = [&](NodeId id) {
-            return built.tree.name(id).object == 0 && !built.tree.name(id).back;
-        };
-        const auto isFoot = [&](NodeId id) {
-            const hierarchy::Shape& shape = built.tree.shape(id);
-            return built.tree.name(id).object == 1 && !built.tree.name(id).back &&
-                   std::any_of(
-                       shape.corners.begin(), shape.corners.begin() + shape.cornerCount,
-                       [](const base::Vec3& corner) { return static_cast<double>(corner.y) < kFoot + 1e-4; });
-        };
-        built.split(levels.shaft, isFoot);
-        built.split(levels.torus, isTorus);
-        const std::vector<NodeId> torus = leavesWhere(built, isTorus);
-        const std::vector<NodeId> foot = leavesWhere(built, isFoot);
-        ASSERT_EQ(foot.size(), std::size_t{4} << levels.shaft);
-        const double wanted = shareThatMeets(built, foot[0], 0, 8192);
-        for (std::size_t i = 0; i < foot.size() / 4; i += 4) {
-            const double factor =
-                sumCouplings(built, {foot[i]}, torus) / static_cast<double>(built.tree.shape(foot[i]).area);
-            EXPECT_NEAR(factor, wanted, 0.1 * wanted) << levels.shaft << ' ' << levels.torus << ' ' << i;
         }
     }
 }
