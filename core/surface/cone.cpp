@@ -39,6 +39,22 @@ Cone::Cone(const base::Mat4d& worldFromLocal, double radiusBottom, double radius
     }
 }
 
+bool Cone::isConvexAround(const Box& box) const {
+    // Where the cone's radius is not negative its inside is convex, above and below the frustum too.
+    const auto isInside = [this](const Vec3d& corner) {
+        const Vec3d p = map().toUnit(corner);
+        const double radius = focusRadius_ + growth_ * (p.y - focus_);
+        return radius >= 0.0 && p.x * p.x + p.z * p.z <= radius * radius;
+    };
+    for (unsigned i = 0; i < 8; ++i) {
+        if (!isInside({(i & 1u) != 0 ? box.upper.x : box.lower.x, (i & 2u) != 0 ? box.upper.y : box.lower.y,
+                       (i & 4u) != 0 ? box.upper.z : box.lower.z})) {
+            return false;
+        }
+    }
+    return true;
+}
+
 std::optional<SurfaceHit> Cone::intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                           double tFar) const {
     const Vec3d d = map().inverse * direction;

@@ -13,6 +13,7 @@ class Cone : public RevolvedSegment {
          bool inside = false);
 
     std::string_view kind() const override { return "cone"; }
+    bool isConvexAround(const Box& box) const override;
     std::optional<SurfaceHit> intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                         double tFar) const override;
 

@@ -175,6 +175,19 @@ std::optional<double> Sphere::exactKernel(bool back) const {
     return std::nullopt;
 }
 
+bool Sphere::isConvexAround(const Box& box) const {
+    for (unsigned i = 0; i < 8; ++i) {
+        const Vec3d corner((i & 1u) != 0 ? box.upper.x : box.lower.x,
+                           (i & 2u) != 0 ? box.upper.y : box.lower.y,
+                           (i & 4u) != 0 ? box.upper.z : box.lower.z);
+        const Vec3d p = inverse_ * (corner - center_);
+        if (glm::dot(p, p) > 1.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 std::optional<SurfaceHit> Sphere::intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                             double tFar) const {
     const Vec3d o = inverse_ * (origin - center_);

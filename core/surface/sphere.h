@@ -26,6 +26,7 @@ class Sphere final : public Surface {
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
     double area(std::uint32_t patch, const Region& region) const override;
     std::optional<double> exactKernel(bool back) const override;
+    bool isConvexAround(const Box& box) const override;
     std::optional<SurfaceHit> intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                         double tFar) const override;
     Box bounds() const override;

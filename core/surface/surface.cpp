@@ -16,6 +16,10 @@ std::optional<double> Surface::exactKernel(bool /*back*/) const {
     return std::nullopt;
 }
 
+bool Surface::isConvexAround(const Box& /*box*/) const {
+    return false;
+}
+
 TriangleView Surface::triangles() const {
     return {};
 }

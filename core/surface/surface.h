@@ -98,6 +98,11 @@ class Surface {
     /// constant (inside of a sphere: 1 / (4 pi R2)).
     virtual std::optional<double> exactKernel(bool back) const;
 
+    /// Whether all points of the box lie inside the surface, and that inside is convex: then no line between
+    /// two of them, or from one to a point of the surface's hollow side, or between two such points, meets
+    /// the surface on its way. Default: never.
+    virtual bool isConvexAround(const Box& box) const;
+
     /// First intersection with t in (tNear, tFar), for surfaces without triangles.
     virtual std::optional<SurfaceHit> intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                                 double tFar) const = 0;

@@ -52,9 +52,8 @@ PairBounds boundPair(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
         const double toB = *kernel * static_cast<double>(shapeA.area);
         bounds = {{toA, toA}, {toB, toB}};
     } else {
-        const ElementParts partsA = makeElementParts(h, a);
-        const ElementParts partsB = makeElementParts(h, b);
-        bounds = {boundPointFactor(partsA, partsB), boundPointFactor(partsB, partsA)};
+        bounds = {boundPointFactor(h, a, makeSourceParts(h, b)),
+                  boundPointFactor(h, b, makeSourceParts(h, a))};
     }
     if (isPartlyHidden(shapeB)) {
         bounds.atA.lower = 0.0;

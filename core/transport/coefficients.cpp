@@ -88,8 +88,7 @@ PairFactor factorOf(const hierarchy::Hierarchy& h, const Query& query, const Ele
     if (factor.coupling <= 0.0 || !isCurvedContact(a, b)) {
         return factor;
     }
-    return computePairFactor(
-        a, b, computeTouchingCoupling(a, makeElementGrid(h, query.a), b, makeElementGrid(h, query.b)));
+    return computePairFactor(a, b, computeTouchingCoupling(h, query.a, a, query.b, b));
 }
 
 // Leaves of a pair's coefficient what element `id`'s exposed cells exchange with `other`.
@@ -216,7 +215,10 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         coupling *=
             static_cast<double>(shapeA.sampledArea() / shapeA.area * (shapeB.sampledArea() / shapeB.area));
     }
-    out.coupling = static_cast<float>(coupling);
+    // Where two surfaces lie upon each other and part of one is hidden, what is left may come out larger than
+    // all that it can send; light would grow without end between them.
+    out.coupling = std::min({static_cast<float>(coupling), hierarchy_.shape(query.a).exposedArea(),
+                             hierarchy_.shape(query.b).exposedArea()});
     if (out.coupling <= 0.0f || query.isOpen) {
         out.isOpen = query.isOpen;
         return out;

@@ -18,6 +18,9 @@ using surface::Region;
 /// Shapes are stored as float: their rounding, relative to lengths and in radians.
 constexpr double kRounding = 2e-6;
 
+/// A bound this near to what a factor reaches for certain, relative to the largest, is good enough.
+constexpr double kGoodEnough = 0.03;
+
 using Corners = std::array<Vec3d, 4>;
 
 // As regions are quartered: each of the first keeps its corner, a triangle's last is the middle.
@@ -38,6 +41,9 @@ std::array<Corners, 4> quartersOf(const Corners& c, std::uint32_t count) {
 /// A planar element, with what it needs to be cut.
 struct PlanarCutter {
     using Part = Corners;
+    /// How often parts of a receiver are quartered for a pair's bounds. (Cornell box, elements at four times
+    /// their radii: the median width of the bounds is .73 of the factor with 4, .70 with 20.)
+    static constexpr unsigned kCuts = 4;
 
     std::uint32_t count = 0;
     Vec3d axis{};
@@ -80,6 +86,9 @@ void PlanarCutter::measure(SourcePart& part, const Part& corners) const {
 /// A curved element, towards the side that takes part.
 struct CurvedCutter {
     using Part = Region;
+    /// As above. (Curved objects: 1.45 with 12, 1.40 with 20, 1.38 with 32; the factor itself varies
+    /// by 1.12.)
+    static constexpr unsigned kCuts = 20;
 
     const surface::Surface& surface;
     std::uint32_t patch = 0;
@@ -139,24 +148,8 @@ void CurvedCutter::measure(SourcePart& part, const Part& region) const {
 }
 
 template <class Cutter>
-void cutReceivers(ElementParts& out, const Cutter& cutter, const typename Cutter::Part& whole) {
-    std::array<typename Cutter::Part, 4 + ElementParts::kCutReceivers * 4> parts{};
-    const auto put = [&](std::size_t first, const typename Cutter::Part& parent) {
-        const auto quarters = cutter.quarters(parent);
-        std::copy(quarters.begin(), quarters.end(), parts.begin() + static_cast<std::ptrdiff_t>(first));
-    };
-    put(0, whole);
-    for (std::size_t i = 0; i < ElementParts::kCutReceivers; ++i) {
-        put(4 * i + 4, parts[i]);
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        out.receivers[i] = cutter.hullOf(parts[i]);
-    }
-}
-
-template <class Cutter>
-void addSource(ElementParts& out, const Cutter& cutter, const typename Cutter::Part& whole) {
-    SourcePart& part = out.sources[out.sourceCount++];
+void addSource(SourceParts& out, const Cutter& cutter, const typename Cutter::Part& whole) {
+    SourcePart& part = out.parts[out.count++];
     part.hull = cutter.hullOf(whole);
     cutter.measure(part, whole);
 }
@@ -178,14 +171,23 @@ struct Vectors {
     double cosine = 1.0;  ///< of the half angle about `axis`
 };
 
-// All vectors are convex combinations of those between points.
+// All vectors are convex combinations of those between points; those between two boxes fill a box.
 Vectors vectorsBetween(const ElementHull& from, std::span<const Vec3d> to) {
     Vectors v;
     Vec3d sum(0.0);
-    for (std::uint32_t i = 0; i < from.pointCount; ++i) {
-        for (const Vec3d& end : to) {
-            v.ends[v.count] = end - from.points[i];
-            sum += v.ends[v.count++];
+    constexpr std::uint32_t kBoxCorners = 8;
+    if (from.pointCount == kBoxCorners && to.size() == kBoxCorners) {
+        for (std::uint32_t i = 0; i < kBoxCorners; ++i) {
+            v.ends[i] = to[i] - from.points[kBoxCorners - 1 - i];
+            sum += v.ends[i];
+        }
+        v.count = kBoxCorners;
+    } else {
+        for (std::uint32_t i = 0; i < from.pointCount; ++i) {
+            for (const Vec3d& end : to) {
+                v.ends[v.count] = end - from.points[i];
+                sum += v.ends[v.count++];
+            }
         }
     }
     const double length = glm::length(sum);
@@ -284,83 +286,111 @@ FactorBounds boundParts(const ElementHull& receiver, const SourcePart& source) {
     return bounds;
 }
 
-}  // namespace
-
-ElementParts makeElementParts(const hierarchy::Hierarchy& hierarchy, NodeId id) {
-    const Shape& shape = hierarchy.shape(id);
-    ElementParts out;
-    out.center = Vec3d(shape.center);
-    out.radius = static_cast<double>(shape.radius) * (1.0 + kRounding);
-    if (shape.isPlanar) {
-        Corners corners{};
-        std::copy(shape.corners.begin(), shape.corners.end(), corners.begin());
-        const PlanarCutter cutter{shape.cornerCount, glm::normalize(Vec3d(shape.axis))};
-        cutReceivers(out, cutter, corners);
-        addSource(out, cutter, corners);
-    } else {
-        const hierarchy::ElementName name = hierarchy.name(id);
-        const CurvedCutter cutter{hierarchy.surfaceOf(id), name.patch, name.back};
-        const Region whole = hierarchy.region(id);
-        cutReceivers(out, cutter, whole);
-        for (const Region& quarter : cutter.quarters(whole)) {
-            for (const Region& part : cutter.quarters(quarter)) {
-                addSource(out, cutter, part);
-            }
-        }
+// Most that any point of an element may see of a source: nothing subtends more than the sphere around it.
+double mostInSphere(const Shape& receiver, const SourceParts& source) {
+    const double nearest = glm::distance(source.center, Vec3d(receiver.center)) -
+                           static_cast<double>(receiver.radius) * (1.0 + kRounding);
+    if (nearest <= source.radius) {
+        return 1.0;
     }
-    return out;
+    const double sine = source.radius / nearest;
+    return 2.0 * (1.0 - std::sqrt(1.0 - sine * sine));
 }
 
-FactorBounds boundPointFactor(const ElementParts& receiver, const ElementParts& source) {
-    // Nothing subtends more than the sphere around it.
-    double most = 1.0;
-    const double nearest = glm::distance(source.center, receiver.center) - receiver.radius;
-    if (nearest > source.radius) {
-        const double sine = source.radius / nearest;
-        most = 2.0 * (1.0 - std::sqrt(1.0 - sine * sine));
-    }
-    // Of the receiver's parts only those are cut further that hold the extremes.
-    std::array<FactorBounds, ElementParts{}.receivers.size()> bounds;
-    std::array<bool, ElementParts{}.receivers.size()> isLeaf{};
-    const auto boundQuarters = [&](std::size_t first) {
-        for (std::size_t i = first; i < first + 4; ++i) {
-            FactorBounds sum{0.0, 0.0};
-            for (std::size_t j = 0; j < source.sourceCount; ++j) {
-                const FactorBounds part = boundParts(receiver.receivers[i], source.sources[j]);
-                sum.lower += part.lower;
-                sum.upper += part.upper;
-            }
-            bounds[i] = {sum.lower, std::min(sum.upper, most)};
-            isLeaf[i] = true;
-        }
+template <class Cutter>
+FactorBounds boundReceiver(const Cutter& cutter, const typename Cutter::Part& whole,
+                           const SourceParts& source, double most) {
+    struct Receiver {
+        typename Cutter::Part part{};
+        FactorBounds bounds;
     };
-    boundQuarters(0);
-    while (true) {
-        std::size_t lowest = bounds.size();
-        std::size_t highest = bounds.size();
-        double lower = 1.0;
-        double upper = 0.0;
-        for (std::size_t i = 0; i < bounds.size(); ++i) {
-            if (isLeaf[i] && bounds[i].lower < lower) {
-                lower = bounds[i].lower;
-                lowest = i;
-            }
-            if (isLeaf[i] && bounds[i].upper > upper) {
-                upper = bounds[i].upper;
-                highest = i;
-            }
+    std::array<Receiver, 4 + 3 * Cutter::kCuts> receivers;
+    std::size_t count = 0;
+    // What holds for all of a part holds for its quarters, whatever rounding makes of their bounds.
+    const auto boundPart = [&](const typename Cutter::Part& part, const FactorBounds& all) {
+        const ElementHull hull = cutter.hullOf(part);
+        FactorBounds sum{0.0, 0.0};
+        for (std::size_t j = 0; j < source.count; ++j) {
+            const FactorBounds one = boundParts(hull, source.parts[j]);
+            sum.lower += one.lower;
+            sum.upper += one.upper;
         }
-        // A part that sees nothing keeps the bound at 0.
-        const bool canRaise = lowest < ElementParts::kCutReceivers && bounds[lowest].upper > 0.0;
-        const bool canReduce = highest < ElementParts::kCutReceivers;
-        if (!canRaise && !canReduce) {
+        return FactorBounds{std::max(sum.lower, all.lower), std::min(sum.upper, all.upper)};
+    };
+    for (const auto& quarter : cutter.quarters(whole)) {
+        receivers[count++] = {quarter, boundPart(quarter, {0.0, most})};
+    }
+    for (unsigned cuts = 0;; ++cuts) {
+        std::size_t lowest = 0;
+        std::size_t highest = 0;
+        double reached = 0.0;  // by the largest factor
+        double left = 1.0;     // by the least
+        for (std::size_t i = 0; i < count; ++i) {
+            const FactorBounds& b = receivers[i].bounds;
+            lowest = b.lower < receivers[lowest].bounds.lower ? i : lowest;
+            highest = b.upper > receivers[highest].bounds.upper ? i : highest;
+            reached = std::max(reached, b.lower);
+            left = std::min(left, b.upper);
+        }
+        const double lower = receivers[lowest].bounds.lower;
+        const double upper = receivers[highest].bounds.upper;
+        // What either bound may be off by.
+        const double above = upper - reached;
+        const double below = left - lower;
+        if (cuts == Cutter::kCuts || std::max(above, below) <= kGoodEnough * upper) {
             // Areas are stored as float too.
             return {lower * (1.0 - kRounding), std::min(1.0, upper * (1.0 + kRounding))};
         }
-        const std::size_t cut = canReduce ? highest : lowest;
-        isLeaf[cut] = false;
-        boundQuarters(4 * cut + 4);
+        Receiver& cut = receivers[above >= below ? highest : lowest];
+        const FactorBounds all = cut.bounds;
+        const auto quarters = cutter.quarters(cut.part);
+        cut = {quarters[0], boundPart(quarters[0], all)};
+        for (std::size_t i = 1; i < quarters.size(); ++i) {
+            receivers[count++] = {quarters[i], boundPart(quarters[i], all)};
+        }
     }
+}
+
+// Calls an action with what cuts an element and with the whole of it.
+template <class Action>
+auto withCutter(const hierarchy::Hierarchy& hierarchy, NodeId id, const Action& action) {
+    const Shape& shape = hierarchy.shape(id);
+    if (shape.isPlanar) {
+        Corners corners{};
+        std::copy(shape.corners.begin(), shape.corners.end(), corners.begin());
+        return action(PlanarCutter{shape.cornerCount, glm::normalize(Vec3d(shape.axis))}, corners);
+    }
+    const hierarchy::ElementName name = hierarchy.name(id);
+    return action(CurvedCutter{hierarchy.surfaceOf(id), name.patch, name.back}, hierarchy.region(id));
+}
+
+}  // namespace
+
+SourceParts makeSourceParts(const hierarchy::Hierarchy& hierarchy, NodeId id) {
+    const Shape& shape = hierarchy.shape(id);
+    SourceParts out;
+    out.center = Vec3d(shape.center);
+    out.radius = static_cast<double>(shape.radius) * (1.0 + kRounding);
+    withCutter(hierarchy, id, [&](const auto& cutter, const auto& whole) {
+        for (const auto& quarter : cutter.quarters(whole)) {
+            if (shape.isPlanar) {
+                addSource(out, cutter, quarter);
+                continue;
+            }
+            for (const auto& part : cutter.quarters(quarter)) {
+                addSource(out, cutter, part);
+            }
+        }
+    });
+    return out;
+}
+
+FactorBounds boundPointFactor(const hierarchy::Hierarchy& hierarchy, NodeId receiver,
+                              const SourceParts& source) {
+    const double most = mostInSphere(hierarchy.shape(receiver), source);
+    return withCutter(hierarchy, receiver, [&](const auto& cutter, const auto& whole) {
+        return boundReceiver(cutter, whole, source, most);
+    });
 }
 
 }  // namespace fluxwalk::transport

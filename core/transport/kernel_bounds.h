@@ -19,7 +19,9 @@ struct FactorBounds {
 
 /// Part of an element: in the hull of points, with normals in a cone.
 struct ElementHull {
-    std::array<Vec3d, 8> points{};  ///< corners of planar parts, of the box of curved ones
+    /// Corners of planar parts; of curved ones those of their box, x at its upper end in the odd ones, y in
+    /// 2, 3, 6, 7, z in the last four.
+    std::array<Vec3d, 8> points{};
     std::uint32_t pointCount = 0;
     Vec3d axis{};
     double cosine = 1.0;  ///< of the half angle of the cone
@@ -36,23 +38,20 @@ struct SourcePart {
     double inertia = 0.0;  ///< integral of |position - centroid|2, m4
 };
 
-/// An element cut into parts.
-struct ElementParts {
-    /// Where it receives: quarters, their quarters, which for part i stand from 4 i + 4 on, and theirs.
-    std::array<ElementHull, 84> receivers{};
-    static constexpr std::size_t kCutReceivers = 20;
-    /// Where it sends: all of a planar element, 4 x 4 parts of a curved one.
-    std::array<SourcePart, 16> sources{};
-    std::size_t sourceCount = 0;
+/// Where an element sends: quarters of a planar one, 4 x 4 parts of a curved one.
+struct SourceParts {
+    std::array<SourcePart, 16> parts{};
+    std::size_t count = 0;
     Vec3d center{};  ///< of the sphere around all of it
     double radius = 0.0;
 };
 
-ElementParts makeElementParts(const hierarchy::Hierarchy& hierarchy, NodeId id);
+SourceParts makeSourceParts(const hierarchy::Hierarchy& hierarchy, NodeId id);
 
-/// Bounds, without occlusion, of the form factor from any point of `receiver` to the whole of `source`. The
-/// upper one is at most 1, also where the two may touch. (ALGORITHMS 1.4; Lischinski et al. 1994, Stamminger
-/// et al. 1997.)
-FactorBounds boundPointFactor(const ElementParts& receiver, const ElementParts& source);
+/// Bounds, without occlusion, of the form factor from any point of `receiver` to the whole of the source. The
+/// upper one is at most 1, also where the two may touch. The receiver is quartered where it holds one of the
+/// extremes. (ALGORITHMS 1.4; Lischinski et al. 1994, Stamminger et al. 1997.)
+FactorBounds boundPointFactor(const hierarchy::Hierarchy& hierarchy, NodeId receiver,
+                              const SourceParts& source);
 
 }  // namespace fluxwalk::transport

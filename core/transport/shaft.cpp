@@ -202,6 +202,53 @@ double shaftTolerance(const hierarchy::Hierarchy& hierarchy, const rays::RayScen
                                 Vec3d(shapeB.center), static_cast<double>(shapeB.radius));
 }
 
+namespace {
+
+// Objects with a convex inside that holds both ends, where it is known of one: a vault, a lampshade, the
+// inside of a sphere. They stand between no two points of the ends.
+class Shells {
+  public:
+    Shells(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b)
+        : scene_(hierarchy.scene()), ends_{End(hierarchy, a), End(hierarchy, b)} {}
+
+    bool holdBoth(std::uint32_t object) {
+        if (object != last_) {
+            last_ = object;
+            const surface::Surface& surface = *scene_.objects[object].surface;
+            holds_ = holds(surface, object, ends_[0]) && holds(surface, object, ends_[1]);
+        }
+        return holds_;
+    }
+
+  private:
+    struct End {
+        base::Box box;
+        hierarchy::ElementName name;
+
+        End(const hierarchy::Hierarchy& hierarchy, NodeId id) : name(hierarchy.name(id)) {
+            const Extent extent = extentOf(hierarchy.shape(id));
+            box = {extent.lower, extent.upper};
+        }
+    };
+
+    static bool holds(const surface::Surface& surface, std::uint32_t object, const End& end) {
+        if (end.name.object != object) {
+            return surface.isConvexAround(end.box);
+        }
+        // Of its own surface the hollow side; what is convex around a point is so around all it holds.
+        const base::Vec3d middle = surface.bounds().center();
+        return surface.canSeeItself(end.name.patch, end.name.back) &&
+               surface.isConvexAround({middle, middle});
+    }
+
+    const scene::Scene& scene_;
+    std::array<End, 2> ends_;
+    std::uint32_t last_ = 0xffffffffu;
+    bool holds_ = false;
+};
+
+}  // namespace
+
 ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b, double tolerance) {
     const hierarchy::Shape& shapeA = hierarchy.shape(a);
     const hierarchy::Shape& shapeB = hierarchy.shape(b);
@@ -209,9 +256,7 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
     const hierarchy::ElementName nameB = hierarchy.name(b);
     const Shaft shaft(shapeA, shapeB, tolerance);
     const bool bothPlanar = shapeA.isPlanar && shapeB.isPlanar;
-    // Inside a sphere all points see each other past the sphere itself.
-    const bool isInsideSphere = nameA.object == nameB.object && nameA.back == nameB.back &&
-                                hierarchy.surfaceOf(a).exactKernel(nameA.back).has_value();
+    Shells shells(hierarchy, a, b);
     const auto nodes = hierarchy.shaftTree().nodes();
     std::array<std::uint32_t, 128> stack;
     std::size_t depth = 0;
@@ -232,11 +277,11 @@ ShaftContent inspectShaft(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeI
             continue;
         }
         const auto [object, patch] = hierarchy.shaftItems()[node.item];
-        if (isInsideSphere && object == nameA.object) {
-            continue;
-        }
         const surface::Surface& surface = *hierarchy.scene().objects[object].surface;
         const bool isPlanar = surface.isPlanar(patch);
+        if (!isPlanar && shells.holdBoth(object)) {
+            continue;
+        }
         if (isPlanar && ((object == nameA.object && patch == nameA.patch) ||
                          (object == nameB.object && patch == nameB.patch))) {
             continue;

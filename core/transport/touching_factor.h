@@ -16,6 +16,7 @@ struct GaussGrid {
         double weight = 0.0;
     };
     std::array<Point, side * side> points;
+    double scale = 1.0;  ///< of measures that sum to 1 over the unit square
 };
 using ElementGrid = GaussGrid<4>;
 /// Twice as many, as the pairs that fall together are left out.
@@ -27,12 +28,13 @@ SelfGrid makeSelfGrid(const hierarchy::Hierarchy& hierarchy, NodeId id);
 bool isCurvedContact(const ElementPoints& a, const ElementPoints& b);
 
 /// Coupling g = A_a F(a<-b) in m2 without occlusion: points of the one look at the contour of the other where
-/// all of it faces them, else at its points. Symmetric in the two.
-double computeTouchingCoupling(const ElementPoints& a, const ElementGrid& gridA, const ElementPoints& b,
-                               const ElementGrid& gridB);
+/// all of it faces them, else at its points, more of them where it is near. Symmetric in the two.
+double computeTouchingCoupling(const hierarchy::Hierarchy& hierarchy, NodeId idA, const ElementPoints& a,
+                               NodeId idB, const ElementPoints& b);
 
 /// Exchange of an element with itself, from all pairs of its points: on a smooth hollow surface the kernel
-/// stays finite where they meet. Gradients are 0, the spreads are the largest deviation of the kernel.
+/// stays finite where they meet. No more than can stay on it by its normals. Gradients are 0, the spreads are
+/// the largest deviation of the kernel.
 PairFactor computeSelfFactor(const ElementPoints& element, const SelfGrid& grid);
 
 }  // namespace fluxwalk::transport

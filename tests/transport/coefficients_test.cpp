@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/scene/builders.h"
 #include "core/surface/sphere.h"
 #include "core/transport/exact_form_factor.h"
@@ -102,6 +104,60 @@ TEST(Coefficients, inASphereAreExact) {
         EXPECT_EQ(c.spreadA, 0.0f);
         EXPECT_EQ(c.visibility, 1.0f);
     }
+}
+
+// The ring at a column's foot lies on a disk that begins below it: near the circle where they meet part of
+// the disk is hidden, and the rest can send no more than all it has.
+TEST(Coefficients, sendNoMoreThanWhatIsExposed) {
+    Built built(scene::buildGallery());
+    const auto& objects = built.scene.objects;
+    const auto disk = static_cast<std::uint32_t>(
+        std::find_if(objects.begin(), objects.end(),
+                     [](const scene::Object& object) { return object.name == "column step top"; }) -
+        objects.begin());
+    ASSERT_EQ(objects.at(disk + 1).name, "column base");
+    const auto height = static_cast<float>(objects[disk].surface->bounds().upper.y);
+    const auto isAtContact = [&](NodeId id) {
+        const hierarchy::ElementName name = built.tree.name(id);
+        const hierarchy::Shape& shape = built.tree.shape(id);
+        const bool isRing = name.object == disk + 1;
+        if (name.back || name.patch % 4 != 0 || !(isRing || name.object == disk)) {
+            return false;
+        }
+        // Of the ring what is near the disk, of that what begins at its inner edge.
+        const surface::Region region = built.tree.region(id);
+        return isRing ? shape.center.y - shape.radius < height + .01f
+                      : std::any_of(region.corners.begin(), region.corners.end(),
+                                    [](const base::Vec2d& uv) { return uv.x == 0.0 || uv.y == 0.0; });
+    };
+    for (int i = 0; i < 3; ++i) {
+        built.split(1, isAtContact);
+    }
+    std::array<std::vector<NodeId>, 2> ends;
+    for (std::uint32_t i = 0; i < built.tree.nodeCount(); ++i) {
+        const NodeId id{i};
+        if (built.tree.kind(id) == hierarchy::NodeKind::element && built.tree.isLeaf(id) &&
+            isAtContact(id)) {
+            ends[built.tree.name(id).object - disk].push_back(id);
+        }
+    }
+    const CoefficientService service(built.tree, built.rays);
+    int close = 0;
+    int hiding = 0;
+    for (const NodeId a : ends[0]) {
+        hiding += built.tree.shape(a).exposed < 1.0f ? 1 : 0;
+        for (const NodeId b : ends[1]) {
+            const Query query{a, b, false};
+            Coefficient c;
+            service.compute(std::span(&query, 1), std::span(&c, 1));
+            const float least =
+                std::min(built.tree.shape(a).exposedArea(), built.tree.shape(b).exposedArea());
+            EXPECT_LE(c.coupling, least);
+            close += c.coupling > .5f * least ? 1 : 0;
+        }
+    }
+    EXPECT_GT(close, 0);
+    EXPECT_GT(hiding, 0);
 }
 
 }  // namespace

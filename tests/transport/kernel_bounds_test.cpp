@@ -61,8 +61,8 @@ Quality inspect(scene::Scene scene, unsigned levels, int pairsOnEach) {
             elements.insert(elements.end(), below.begin(), below.end());
         }
         base::RandomStream random(70 + level);
-        // Any pairs first, then four times as many draws of which only those at about four times their radii are
-        // taken, so that the median is well known.
+        // Any pairs first, then four times as many draws of which only those at about four times their radii
+        // are taken, so that the median is well known.
         for (int draw = 0; draw < 5 * pairsOnEach; ++draw) {
             const auto pick = [&] {
                 return elements[static_cast<std::size_t>(random.next() *
@@ -80,8 +80,8 @@ Quality inspect(scene::Scene scene, unsigned levels, int pairsOnEach) {
             }
             const transport::ElementSampler sampler(built.tree, a);
             const transport::SurfaceSample x = sampler.at(random.next2());
-            const transport::FactorBounds bounds = transport::boundPointFactor(
-                transport::makeElementParts(built.tree, a), transport::makeElementParts(built.tree, b));
+            const transport::FactorBounds bounds =
+                transport::boundPointFactor(built.tree, a, transport::makeSourceParts(built.tree, b));
             const auto isOutside = [&bounds](double factor) {
                 return factor < bounds.lower - kRoundingOfFactor || factor > bounds.upper + kRoundingOfFactor;
             };

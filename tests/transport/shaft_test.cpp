@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/builders.h"
+#include "core/surface/cylinder.h"
 #include "tests/transport/polygon_pairs.h"
 
 namespace fluxwalk {
@@ -198,6 +199,22 @@ TEST(Shaft, excludesOnlyBoxesThatHoldNoPointOfIt) {
         }
     }
     EXPECT_GT(excluded, 2000);
+}
+
+// A cylinder about both plates stands between no two of their points; it does once one is outside.
+TEST(ShaftCertificates, convexShellsBlockNothingInside) {
+    for (const bool isInside : {true, false}) {
+        const double x = isInside ? .5 : 1.5;
+        scene::Scene scene = test::sceneOf({{{-.5, -.2, -.2}, {-.5, .2, -.2}, {-.5, .2, .2}, {-.5, -.2, .2}},
+                                            {{x, -.2, -.2}, {x, -.2, .2}, {x, .2, .2}, {x, .2, -.2}}});
+        scene.objects.push_back(
+            {"shell", std::make_shared<surface::Cylinder>(base::Mat4d(1.0), 1.0, 4.0, true), 0});
+        const test::Built built(std::move(scene));
+        const NodeId a = built.tree.patchNode(0, 0, false);
+        const NodeId b = built.tree.patchNode(1, 0, false);
+        const auto content = transport::inspectShaft(built.tree, a, b, 1e-6);
+        EXPECT_EQ(content == transport::ShaftContent::empty, isInside);
+    }
 }
 
 }  // namespace
