@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/memory.h"
 #include "core/cli/output.h"
 #include "core/cli/progress.h"
 #include "core/io/file.h"
@@ -20,10 +21,31 @@ const char* nameOf(solve::Outcome outcome) {
             return "reachedError";
         case solve::Outcome::reachedTimeLimit:
             return "reachedTimeLimit";
+        case solve::Outcome::reachedLinkLimit:
+            return "reachedLinkLimit";
+        case solve::Outcome::reachedMemoryLimit:
+            return "reachedMemoryLimit";
         case solve::Outcome::stopped:
             break;
     }
     return "stopped";
+}
+
+/// What ended a solve before the requested error.
+const char* describeEnd(solve::Outcome outcome) {
+    switch (outcome) {
+        case solve::Outcome::stopped:
+            return " (stopped before)";
+        case solve::Outcome::reachedTimeLimit:
+            return " (time limit before)";
+        case solve::Outcome::reachedLinkLimit:
+            return " (link limit before)";
+        case solve::Outcome::reachedMemoryLimit:
+            return " (memory limit before)";
+        case solve::Outcome::reachedError:
+            break;
+    }
+    return "";
 }
 
 template <class Vector>
@@ -43,6 +65,7 @@ Json optionsJson(const SolverArguments& arguments) {
             case solve::OptionKind::flag:
                 entry = value != 0.0;
                 break;
+            case solve::OptionKind::bytes:
             case solve::OptionKind::integer:
                 entry = static_cast<std::uint64_t>(value);
                 break;
@@ -72,6 +95,8 @@ Json countersJson(const solve::Counters& c) {
             {"certificates", c.certificates},
             {"bytesNodes", c.bytesNodes},
             {"bytesLinks", c.bytesLinks},
+            {"bytesCounted", c.bytesCounted},
+            {"bytesPeak", base::peakMemory()},
             {"bytesPerNode", ratio(c.bytesNodes, c.nodes)},
             {"bytesPerLink", ratio(c.bytesLinks, c.links)}};
 }
@@ -108,6 +133,7 @@ Json toJson(const solve::Statistics& s) {
             {"meanIrradiance", s.meanIrradiance},
             {"residual", s.residual},
             {"threshold", s.threshold},
+            {"largestLinkError", s.largestError},
             {"counters", countersJson(s.counters)},
             {"seconds", timesJson(s.times)},
             {"audit", auditJson(s.audit)},
@@ -124,7 +150,7 @@ Json toJson(const Report& report) {
     json.update(toJson(report.statistics));
     json["outputs"] = report.outputs;
     json["units"] = {{"error", "part of the mean irradiance"},
-                     {"irradiance and threshold", "lux"},
+                     {"irradiance, threshold and largestLinkError", "lux"},
                      {"audit", "lm for red, green and blue"},
                      {"scene", scene::kDescriptionUnits}};
     return json;
@@ -137,13 +163,14 @@ std::string formatSummary(const Report& report) {
     for (const std::string& output : report.outputs) {
         text += fmt::format("wrote      {}\n", output);
     }
-    const char* stopped = report.outcome == solve::Outcome::stopped            ? " (stopped before)"
-                          : report.outcome == solve::Outcome::reachedTimeLimit ? " (time limit before)"
-                                                                               : "";
     const std::string achieved =
         s.estimatedError < 0.0 ? "not estimated" : fmt::format("{:.2g} %", 100.0 * s.estimatedError);
     text += fmt::format("error      {} of the mean, {:g} % requested{}\n", achieved,
-                        100.0 * report.arguments.options.error, stopped);
+                        100.0 * report.arguments.options.error, describeEnd(report.outcome));
+    if (s.largestError > s.threshold) {
+        text += fmt::format("links      left with errors of up to {:.3g} lux, {:.3g} lux wanted\n",
+                            s.largestError, s.threshold);
+    }
     text += fmt::format("mean       {:.4g} lux\n", s.meanIrradiance);
     text += fmt::format("work       {} links between {} elements, {} rays, {}\n", c.links, c.leaves, c.rays,
                         formatDuration(s.times.total));

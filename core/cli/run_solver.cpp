@@ -32,7 +32,7 @@ Solved runSolver(const std::string& command, const SceneArguments& sceneArgument
     Progress progress(stderr, chooseStyle(stderr, output.quiet));
     solve::Callbacks callbacks;
     callbacks.shouldStop = [] { return Interrupt::isRequested(); };
-    callbacks.levelDone = [&] { checkpointing.keep(*solved.solver); };
+    callbacks.resumable = [&](solve::Moment moment) { checkpointing.keep(*solved.solver, moment); };
     callbacks.progress = [&](double fraction, const char* stage) { progress.update(fraction, stage); };
     solved.report.outcome = solved.solver->solve(callbacks);
     checkpointing.finish();

@@ -8,6 +8,13 @@
 
 namespace fluxwalk::solve {
 
+namespace {
+
+/// Measured: room that vectors keep, and what is held while meshes are made, with the meshes themselves.
+constexpr std::uint64_t kMaking = 3;
+
+}  // namespace
+
 DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
     const std::size_t objects = problem.scene->objects.size();
     patchesOf_.resize(objects);
@@ -34,6 +41,7 @@ DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
 void DisplayUpdate::rebuild(double curvatureAngle) {
     const StageTimer timer(problem_.statistics.times.display);
     const hierarchy::Hierarchy& h = problem_.hierarchy;
+    shownNodes_ = h.nodeCount();
     display::MeshOptions options;
     options.curvatureAngle = curvatureAngle;
     problem_.executor.forRange(patchesOf_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -71,6 +79,18 @@ void DisplayUpdate::rebuild(double curvatureAngle) {
                                                      problem_.scene->objects[o].material, leaves, options);
         }
     });
+}
+
+std::uint64_t DisplayUpdate::bytes() const {
+    std::uint64_t bytes = 0;
+    for (const display::DisplayMeshes& object : meshes_) {
+        for (const auto& mesh : object.meshes) {
+            bytes += mesh->positions.size() * (3 * sizeof(base::Vec3)) +
+                     (mesh->texcoords[0].size() + mesh->texcoords[1].size()) * sizeof(base::Vec2) +
+                     mesh->triangles.size() * sizeof(std::uint32_t);
+        }
+    }
+    return kMaking * bytes;
 }
 
 scene::LitMeshes DisplayUpdate::refresh() {

@@ -131,8 +131,11 @@ TEST_F(Checkpoints, AFullDiskIsAWarningAndTheSolveGoesOn) {
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     testing::internal::CaptureStderr();
     solve::Callbacks callbacks;
-    callbacks.levelDone = [&] {
-        checkpointing.keep(*solver);
+    callbacks.resumable = [&](solve::Moment moment) {
+        if (moment != solve::Moment::level) {
+            return;
+        }
+        checkpointing.keep(*solver, moment);
         if (first.empty()) {
             first = read("a.fwc");
             rlimit tight = before;

@@ -153,7 +153,7 @@ TEST(Tiling, holdsAfterAStop) {
         test::converge(*problem, 1e-3);
         const std::size_t before = problem->links.links.size();
         int asked = 0;
-        solve::refineLinks(*problem, .05, [&] { return asked++ >= waves; });
+        solve::refineLinks(*problem, .05, {}, [&] { return asked++ >= waves; });
         EXPECT_GT(asked, waves);
         EXPECT_GT(problem->links.links.size(), before);
         expectTiling(*problem);
