@@ -41,6 +41,7 @@ Solved runSolver(const std::string& command, const SceneArguments& sceneArgument
 
 void completeReport(Solved& solved, std::vector<std::string> outputs) {
     solved.report.statistics = solved.solver->statistics();
+    solved.report.statistics.counters.bytesCounted = solved.solver->countBytes();
     solved.report.outputs = std::move(outputs);
 }
 

@@ -252,8 +252,7 @@ Options storedOptions(const base::NamedArrays& arrays, const Options& others, co
         const double value = reader.value<double>(name);
         const bool isWhole = option.kind == OptionKind::integer || option.kind == OptionKind::choice ||
                              option.kind == OptionKind::bytes || option.kind == OptionKind::flag;
-        const bool isMeant = value == 0.0 && !option.zero.empty();
-        if (!(isMeant || (value >= option.minimum && value <= option.maximum)) ||
+        if (!(value >= option.minimum && value <= option.maximum) ||
             (isWhole && value != std::floor(value))) {
             reader.fail(name, "is out of its range");
         }

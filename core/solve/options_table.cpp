@@ -162,7 +162,7 @@ std::vector<OptionInfo> makeTable() {
     table.push_back(
         {.name = "memory-limit",
          .kind = OptionKind::bytes,
-         .minimum = kLeastMemory,
+         .minimum = 0.0,
          .maximum = kLargestInteger,
          .zero = "automatic",
          .explanation = "Let the program take no more memory than this, largest errors first; automatic is "
@@ -241,9 +241,8 @@ double parseBytes(const OptionInfo& option, std::string_view text) {
         rejectValue(option, text);
     }
     const double value = std::floor(*number * unit);
-    const bool isAutomatic = value == 0.0 && !option.zero.empty();
-    if (!isAutomatic && !(value >= option.minimum && value <= option.maximum)) {
-        const bool isBare = digits.size() == text.size() && value > 0.0 && value < option.minimum;
+    if (value != 0.0 && !(value >= kLeastMemory && value <= option.maximum)) {
+        const bool isBare = digits.size() == text.size() && value > 0.0 && value < kLeastMemory;
         rejectValue(option, text, isBare ? fmt::format("; did you mean {}G?", text) : "");
     }
     return value;
@@ -328,7 +327,7 @@ std::string describeRange(const OptionInfo& option) {
         case OptionKind::integer:
             return fmt::format("a whole number from {:.0f} to {:.0f}", option.minimum, option.maximum);
         case OptionKind::bytes:
-            return fmt::format("bytes from {} on, as 512M or 4G", formatBytes(option.minimum));
+            return fmt::format("bytes from {} on, as 512M or 4G", formatBytes(kLeastMemory));
         case OptionKind::fraction:
             return fmt::format("{:g} % to {:g} %", option.minimum * 100.0, option.maximum * 100.0);
         case OptionKind::quantity:

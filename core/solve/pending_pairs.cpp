@@ -17,9 +17,10 @@ using transport::Query;
 constexpr std::size_t kWave = 65536;
 /// A budget is far where everything pending could be split into this many times more.
 constexpr std::uint64_t kFar = 4;
-/// Near it, a wave takes no more than one part in this many of the room, so that the parts of what is worst
-/// now compete with what comes next.
+/// Near it, a wave takes no more than one part in this many of the room, and nothing better than this part
+/// of the worst, so that the parts of what is worst now compete with what comes next.
 constexpr std::uint64_t kNear = 2;
+constexpr float kClass = 0.5f;
 
 bool needsChildren(const Hierarchy& h, NodeId id) {
     return h.isLeaf(id) && h.kind(id) == NodeKind::element;
@@ -132,8 +133,12 @@ std::vector<Decision> takeNext(std::vector<Decision>& pending, const Hierarchy& 
         budget.require(nodes + growth.nodes, links + growth.links);
         return extract(pending, isTaken);
     }
-    for (const std::uint32_t i : findWorst(pending, h)) {
+    const std::vector<std::uint32_t> worst = findWorst(pending, h);
+    for (const std::uint32_t i : worst) {
         growth.add(pending[i]);
+        if (!isFar && pending[i].error < kClass * pending[worst.front()].error) {
+            break;
+        }
         if (!isFar && !budget.holds(nodes + kNear * growth.nodes, links + kNear * growth.links)) {
             break;
         }

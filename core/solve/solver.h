@@ -76,6 +76,9 @@ class Solver {
     void setOptions(const Options& options);
     const Options& options() const;
     const Statistics& statistics() const;
+    /// What the solve takes now, as the memory limit counts it: all that it holds, and what refining, sweeping
+    /// and showing take on the way.
+    std::uint64_t countBytes() const;
     /// Display meshes of the present solution, for all objects.
     scene::LitMeshes litMeshes() const;
 

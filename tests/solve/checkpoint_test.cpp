@@ -111,7 +111,7 @@ void expectToGoOn(const ScenePtr& scene, const Options& options) {
         const unsigned threads = 1 + static_cast<unsigned>(part) % 2;
         const auto kept = solveAndStop(scene, options, 3 - threads, asked * part / 8);
         ASSERT_TRUE(kept);
-        within += kept->find("pending/a")->rows() > 0 ? 1 : 0;
+        within += kept->find("pending/a")->rows() > 0 ? 1u : 0u;
         Solver other(scene, options, threads);
         other.restore(*kept, "kept");
         EXPECT_EQ(other.solve({}), Outcome::reachedError);
