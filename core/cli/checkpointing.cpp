@@ -8,7 +8,9 @@
 namespace fluxwalk::cli {
 
 Checkpointing::Checkpointing(const SolverArguments& arguments)
-    : file_(arguments.checkpoint), resumed_(arguments.resume), options_(arguments.options),
+    : file_(arguments.checkpoint),
+      resumed_(arguments.resume),
+      options_(arguments.options),
       interval_(std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(arguments.checkpointInterval))) {
     if (!file_.empty()) {

@@ -5,8 +5,8 @@
 #include "core/base/named_arrays.h"
 #include "core/solve/state.h"
 
-/// A solve between two waves, sweeps or levels as named arrays, and back. All that decides what comes next is in them, so that
-/// a solve that goes on from them gets the same bits as one that was never interrupted.
+/// A solve between two waves, sweeps or levels as named arrays, and back. All that decides what comes next is
+/// in them, so that a solve that goes on from them gets the same bits as one that was never interrupted.
 namespace fluxwalk::solve {
 
 /// What comes next within a level.
@@ -15,7 +15,7 @@ enum class Stage : std::uint8_t { tighten, refine, sweep };
 /// What the loop over the levels carries along, beside the Problem.
 struct LoopState {
     Stage stage = Stage::tighten;
-    int sweeps = 0;  ///< of this level that are done
+    int sweeps = 0;             ///< of this level that are done
     bool isCoarsening = false;  ///< this level began anew at the root
     bool isStarted = false;
     double ambient = 0.0;       ///< lux, first guess for what is not lit yet

@@ -1,5 +1,6 @@
 #include "core/solve/display_update.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "core/base/photometry.h"
@@ -10,8 +11,8 @@ namespace fluxwalk::solve {
 
 namespace {
 
-/// Measured: room that vectors keep, and what is held while meshes are made, with the meshes themselves.
-constexpr std::uint64_t kMaking = 3;
+/// Measured: the meshes themselves, with tables and what is held while they are made, drawn or written.
+constexpr std::uint64_t kMaking = 4;
 
 }  // namespace
 
@@ -90,11 +91,13 @@ std::uint64_t DisplayUpdate::bytes() const {
                      mesh->triangles.size() * sizeof(std::uint32_t);
         }
     }
-    return kMaking * bytes;
+    return kMaking * std::max(bytes, refreshed_);
 }
 
 scene::LitMeshes DisplayUpdate::refresh() {
     rebuild(problem_.options.displayAngle * base::kPi / 180.0);
+    refreshed_ = 0;
+    refreshed_ = bytes() / kMaking;
     scene::LitMeshes all;
     for (const display::DisplayMeshes& object : meshes_) {
         all.insert(all.end(), object.meshes.begin(), object.meshes.end());

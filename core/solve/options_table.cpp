@@ -253,7 +253,8 @@ std::string formatBytes(double value) {
     for (; power < kByteUnits.size() && value >= 1024.0; ++power) {
         value /= 1024.0;
     }
-    return power == 0 ? fmt::format("{:.17g}", value) : fmt::format("{:.17g}{}", value, kByteUnits[power - 1]);
+    return power == 0 ? fmt::format("{:.17g}", value)
+                      : fmt::format("{:.17g}{}", value, kByteUnits[power - 1]);
 }
 
 }  // namespace

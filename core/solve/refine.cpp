@@ -154,11 +154,11 @@ class Refinement {
         const hierarchy::Light& light = hierarchy_.light(id);
         const OracleKind oracle = problem_.options.oracle;
         const float range = oracle == OracleKind::strict ? light.range() : 0.0f;
-        d.error = limitError(
-            transport::assessSelf(oracle, {.area = shape.exposedArea(),
-                                           .halfAngle = shape.halfAngle,
-                                           .radiosity = base::channelMean(light.radiosity) + range,
-                                           .sceneArea = sceneArea_}));
+        d.error =
+            limitError(transport::assessSelf(oracle, {.area = shape.exposedArea(),
+                                                      .halfAngle = shape.halfAngle,
+                                                      .radiosity = base::channelMean(light.radiosity) + range,
+                                                      .sceneArea = sceneArea_}));
         d.verdict = d.error <= threshold_ ? Verdict::accept : Verdict::splitSelf;
     }
 

@@ -7,8 +7,8 @@
 namespace fluxwalk::solve {
 
 struct Refined {
-    bool hasChanged = false;      ///< there was something to refine
-    Limit limit = Limit::none;    ///< what left some of it as it was
+    bool hasChanged = false;    ///< there was something to refine
+    Limit limit = Limit::none;  ///< what left some of it as it was
 };
 
 /// Refines until no link's error exceeds `threshold` (lux, see Oracle): waves of bounds, deferred

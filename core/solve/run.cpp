@@ -143,11 +143,11 @@ double Run::seconds() const {
 }
 
 Outcome Run::outcome(Limit limit) const {
-    return wasStopped_                ? Outcome::stopped
-           : isOutOfTime_             ? Outcome::reachedTimeLimit
-           : limit == Limit::links    ? Outcome::reachedLinkLimit
-           : limit == Limit::memory   ? Outcome::reachedMemoryLimit
-                                      : Outcome::reachedError;
+    return wasStopped_              ? Outcome::stopped
+           : isOutOfTime_           ? Outcome::reachedTimeLimit
+           : limit == Limit::links  ? Outcome::reachedLinkLimit
+           : limit == Limit::memory ? Outcome::reachedMemoryLimit
+                                    : Outcome::reachedError;
 }
 
 }  // namespace fluxwalk::solve

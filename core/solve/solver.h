@@ -36,9 +36,9 @@ enum class Outcome : std::uint8_t {
 
 /// Moments of a solve from which it can go on to the same bits.
 enum class Moment : std::uint8_t {
-    wave,  ///< between two waves of refinement, or two sweeps
+    wave,   ///< between two waves of refinement, or two sweeps
     level,  ///< after a level of refinement that was not cut short
-    stop   ///< before a stop or the time limit cuts a level short
+    stop    ///< before a stop or the time limit cuts a level short
 };
 
 /// Called on the solving thread, between waves and sweeps. All may be empty.
@@ -76,8 +76,8 @@ class Solver {
     void setOptions(const Options& options);
     const Options& options() const;
     const Statistics& statistics() const;
-    /// What the solve takes now, as the memory limit counts it: all that it holds, and what refining, sweeping
-    /// and showing take on the way.
+    /// What the solve takes now, as the memory limit counts it: all that it holds, and what refining,
+    /// sweeping and showing take on the way.
     std::uint64_t countBytes() const;
     /// Display meshes of the present solution, for all objects.
     scene::LitMeshes litMeshes() const;

@@ -62,9 +62,9 @@ struct Statistics {
     Counters counters;
     StageTimes times;
     Audit audit;
-    double threshold = 0.0;        ///< lux, of the present level
-    double largestError = 0.0;     ///< lux, of a link as it stands: the threshold, or more where a limit left it
-    double residual = 0.0;         ///< relative
+    double threshold = 0.0;     ///< lux, of the present level
+    double largestError = 0.0;  ///< lux, of a link as it stands: the threshold, or more where a limit left it
+    double residual = 0.0;      ///< relative
     double estimatedError = -1.0;  ///< p, negative while unknown
     double meanIrradiance = 0.0;   ///< lux, mean of the channels over all reached sides
     std::vector<HistoryEntry> history;

@@ -112,8 +112,8 @@ TEST_F(Checkpoints, WhereNoneCanBeKeptIsSaidBeforeTheWork) {
 
 // Before the first wave, and still the result is that of a solve without a stop.
 TEST_F(Checkpoints, AStopInTheFirstLevelIsKept) {
-    const auto [code, err] = solve(
-        "a.glb", {"--error", "10%", "--time-limit", "0.000001", "--checkpoint", path("a.fwc")});
+    const auto [code, err] =
+        solve("a.glb", {"--error", "10%", "--time-limit", "0.000001", "--checkpoint", path("a.fwc")});
     EXPECT_EQ(code, 0);
     EXPECT_EQ(err, "");
     ASSERT_EQ(solve("b.glb", {"--resume", path("a.fwc")}).first, 0);
@@ -124,9 +124,9 @@ TEST_F(Checkpoints, AStopInTheFirstLevelIsKept) {
 
 // With no time in between, one is kept after every wave; the last is that of the last level.
 TEST_F(Checkpoints, IntervalsAreKeptWithinLevels) {
-    ASSERT_EQ(solve("a.glb", {"--error", "20%", "--checkpoint", path("a.fwc"), "--checkpoint-interval", "0"})
-                  .first,
-              0);
+    ASSERT_EQ(
+        solve("a.glb", {"--error", "20%", "--checkpoint", path("a.fwc"), "--checkpoint-interval", "0"}).first,
+        0);
     ASSERT_EQ(solve("b.glb", {"--error", "20%", "--checkpoint", path("b.fwc")}).first, 0);
     EXPECT_EQ(read("a.glb"), read("b.glb"));
     EXPECT_EQ(solve("a.glb", {"--checkpoint-interval", "-1"}).first, static_cast<int>(ExitCode::usage));

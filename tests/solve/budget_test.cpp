@@ -97,9 +97,8 @@ TEST(Budget, largestErrorsAreRefinedFirst) {
         EXPECT_GT(reached, kThreshold / 16.0);
         EXPECT_LT(reached, kThreshold);
         for (const hierarchy::Link& link : limited->links.links) {
-            const bool isOneOfClusters =
-                limited->hierarchy.kind(link.a) == hierarchy::NodeKind::cluster ||
-                limited->hierarchy.kind(link.b) == hierarchy::NodeKind::cluster;
+            const bool isOneOfClusters = limited->hierarchy.kind(link.a) == hierarchy::NodeKind::cluster ||
+                                         limited->hierarchy.kind(link.b) == hierarchy::NodeKind::cluster;
             if (link.a != link.b && !isOneOfClusters) {
                 ASSERT_LE(static_cast<double>(solve::assessLink(*limited, link, 0.0f).error), reached);
             }
@@ -108,7 +107,8 @@ TEST(Budget, largestErrorsAreRefinedFirst) {
         test::refine(*direct, reached);
         EXPECT_NEAR(static_cast<double>(direct->links.links.size()) /
                         static_cast<double>(limited->links.links.size()),
-                    1.0, .1) << name;
+                    1.0, .1)
+            << name;
     }
 }
 

@@ -45,7 +45,7 @@ void expectSameLinks(const Problem& one, const Problem& other) {
     for (const auto& [name, value] : a) {
         const auto found = b.find(name);
         unmatched += found == b.end() ? 1u : 0u;
-        const bool isHidden = std::get<4>(value);
+        const bool isHidden = found != b.end() && (std::get<4>(value) || std::get<4>(found->second));
         different += !isHidden && found != b.end() && found->second != value ? 1u : 0u;
     }
     // At most one in a thousand, where a hidden part tips the scales.
@@ -90,9 +90,9 @@ TEST(Coarsen, frozenLightLeadsToTheFreshLinks) {
     solve::dropLinks(*raised);
     test::refine(*raised, kThreshold);
     EXPECT_EQ(raised->hierarchy.leafCount(), fineLeaves);
+    expectSameLinks(*raised, *fresh);
     solve::pruneElements(*raised);
     EXPECT_GT(fine, 3 * fresh->links.links.size());
-    expectSameLinks(*raised, *fresh);
     EXPECT_EQ(raised->links.links.size(), fresh->links.links.size());
     EXPECT_EQ(raised->hierarchy.leafCount(), fresh->hierarchy.leafCount());
     EXPECT_EQ(raised->hierarchy.nodeCount(), fresh->hierarchy.nodeCount());
