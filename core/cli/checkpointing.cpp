@@ -8,7 +8,11 @@
 namespace fluxwalk::cli {
 
 Checkpointing::Checkpointing(const SolverArguments& arguments)
-    : file_(arguments.checkpoint), resumed_(arguments.resume), options_(arguments.options) {
+    : file_(arguments.checkpoint),
+      resumed_(arguments.resume),
+      options_(arguments.options),
+      interval_(std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(arguments.checkpointInterval))) {
     if (!file_.empty()) {
         requireWritable(file_);
     }
@@ -30,14 +34,14 @@ std::unique_ptr<solve::Solver> Checkpointing::makeSolver(std::shared_ptr<const s
         start_.reset();
         // Where nothing is left to do, no level will be finished.
         if (file_ != resumed_) {
-            keep(*solver);
+            keep(*solver, solve::Moment::level);
         }
     }
     return solver;
 }
 
-void Checkpointing::keep(const solve::Solver& solver) {
-    if (file_.empty()) {
+void Checkpointing::keep(const solve::Solver& solver, solve::Moment moment) {
+    if (file_.empty() || (moment == solve::Moment::wave && Clock::now() - kept_ < interval_)) {
         return;
     }
     try {
@@ -46,11 +50,12 @@ void Checkpointing::keep(const solve::Solver& solver) {
     } catch (const base::FileError& error) {
         printWarning(std::string("the checkpoint was not kept: ") + error.what());
     }
+    kept_ = Clock::now();
 }
 
 void Checkpointing::finish() const {
     if (!file_.empty() && !isAsked_) {
-        printWarning(file_.string() + ": stopped within the first level: there is no checkpoint to keep yet");
+        printWarning(file_.string() + ": stopped before there was anything to keep");
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -22,9 +23,9 @@ class Checkpointing {
     std::unique_ptr<solve::Solver> makeSolver(std::shared_ptr<const scene::Scene> scene,
                                               const solve::Options& options, unsigned threads);
 
-    /// For Callbacks::levelDone: keeps the solver's state. What goes wrong is a warning, and the file stays
-    /// as it was.
-    void keep(const solve::Solver& solver);
+    /// For Callbacks::resumable: keeps the solver's state, but between waves only when it is time. What goes
+    /// wrong is a warning, and the file stays as it was.
+    void keep(const solve::Solver& solver, solve::Moment moment);
 
     /// After a solve: warns where it ended before there was anything to keep.
     void finish() const;
@@ -34,6 +35,9 @@ class Checkpointing {
     std::filesystem::path resumed_;
     std::optional<base::NamedArrays> start_;
     solve::Options options_;
+    using Clock = std::chrono::steady_clock;
+    Clock::duration interval_;
+    Clock::time_point kept_ = Clock::now();
     bool isAsked_ = false;  ///< there was something to keep
 };
 

@@ -20,10 +20,31 @@ const char* nameOf(solve::Outcome outcome) {
             return "reachedError";
         case solve::Outcome::reachedTimeLimit:
             return "reachedTimeLimit";
+        case solve::Outcome::reachedLinkLimit:
+            return "reachedLinkLimit";
+        case solve::Outcome::reachedMemoryLimit:
+            return "reachedMemoryLimit";
         case solve::Outcome::stopped:
             break;
     }
     return "stopped";
+}
+
+/// What ended a solve before the requested error.
+const char* describeEnd(solve::Outcome outcome) {
+    switch (outcome) {
+        case solve::Outcome::stopped:
+            return " (stopped before)";
+        case solve::Outcome::reachedTimeLimit:
+            return " (time limit before)";
+        case solve::Outcome::reachedLinkLimit:
+            return " (link limit before)";
+        case solve::Outcome::reachedMemoryLimit:
+            return " (memory limit before)";
+        case solve::Outcome::reachedError:
+            break;
+    }
+    return "";
 }
 
 template <class Vector>
@@ -43,6 +64,7 @@ Json optionsJson(const SolverArguments& arguments) {
             case solve::OptionKind::flag:
                 entry = value != 0.0;
                 break;
+            case solve::OptionKind::bytes:
             case solve::OptionKind::integer:
                 entry = static_cast<std::uint64_t>(value);
                 break;
@@ -72,6 +94,7 @@ Json countersJson(const solve::Counters& c) {
             {"certificates", c.certificates},
             {"bytesNodes", c.bytesNodes},
             {"bytesLinks", c.bytesLinks},
+            {"bytesCounted", c.bytesCounted},
             {"bytesPerNode", ratio(c.bytesNodes, c.nodes)},
             {"bytesPerLink", ratio(c.bytesLinks, c.links)}};
 }
@@ -108,6 +131,7 @@ Json toJson(const solve::Statistics& s) {
             {"meanIrradiance", s.meanIrradiance},
             {"residual", s.residual},
             {"threshold", s.threshold},
+            {"largestLinkError", s.largestError},
             {"counters", countersJson(s.counters)},
             {"seconds", timesJson(s.times)},
             {"audit", auditJson(s.audit)},
@@ -122,9 +146,10 @@ Json toJson(const Report& report) {
                  {"options", optionsJson(report.arguments)},
                  {"outcome", nameOf(report.outcome)}};
     json.update(toJson(report.statistics));
+    json["counters"]["bytesPeak"] = report.bytesPeak;
     json["outputs"] = report.outputs;
     json["units"] = {{"error", "part of the mean irradiance"},
-                     {"irradiance and threshold", "lux"},
+                     {"irradiance, threshold and largestLinkError", "lux"},
                      {"audit", "lm for red, green and blue"},
                      {"scene", scene::kDescriptionUnits}};
     return json;
@@ -137,13 +162,14 @@ std::string formatSummary(const Report& report) {
     for (const std::string& output : report.outputs) {
         text += fmt::format("wrote      {}\n", output);
     }
-    const char* stopped = report.outcome == solve::Outcome::stopped            ? " (stopped before)"
-                          : report.outcome == solve::Outcome::reachedTimeLimit ? " (time limit before)"
-                                                                               : "";
     const std::string achieved =
         s.estimatedError < 0.0 ? "not estimated" : fmt::format("{:.2g} %", 100.0 * s.estimatedError);
     text += fmt::format("error      {} of the mean, {:g} % requested{}\n", achieved,
-                        100.0 * report.arguments.options.error, stopped);
+                        100.0 * report.arguments.options.error, describeEnd(report.outcome));
+    if (s.largestError > s.threshold) {
+        text += fmt::format("links      left with errors of up to {:.3g} lux, {:.3g} lux wanted\n",
+                            s.largestError, s.threshold);
+    }
     text += fmt::format("mean       {:.4g} lux\n", s.meanIrradiance);
     text += fmt::format("work       {} links between {} elements, {} rays, {}\n", c.links, c.leaves, c.rays,
                         formatDuration(s.times.total));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct Report {
     solve::Outcome outcome = solve::Outcome::stopped;
     solve::Statistics statistics;
     std::vector<std::string> outputs;  ///< files written
+    std::uint64_t bytesPeak = 0;       ///< most memory that the process held
 };
 
 nlohmann::ordered_json toJson(const scene::SceneDescription& scene);

@@ -1,5 +1,6 @@
 #include "core/cli/run_solver.h"
 
+#include "core/base/memory.h"
 #include "core/cli/checkpointing.h"
 #include "core/cli/interrupt.h"
 #include "core/cli/output.h"
@@ -32,7 +33,7 @@ Solved runSolver(const std::string& command, const SceneArguments& sceneArgument
     Progress progress(stderr, chooseStyle(stderr, output.quiet));
     solve::Callbacks callbacks;
     callbacks.shouldStop = [] { return Interrupt::isRequested(); };
-    callbacks.levelDone = [&] { checkpointing.keep(*solved.solver); };
+    callbacks.resumable = [&](solve::Moment moment) { checkpointing.keep(*solved.solver, moment); };
     callbacks.progress = [&](double fraction, const char* stage) { progress.update(fraction, stage); };
     solved.report.outcome = solved.solver->solve(callbacks);
     checkpointing.finish();
@@ -41,7 +42,9 @@ Solved runSolver(const std::string& command, const SceneArguments& sceneArgument
 
 void completeReport(Solved& solved, std::vector<std::string> outputs) {
     solved.report.statistics = solved.solver->statistics();
+    solved.report.statistics.counters.bytesCounted = solved.solver->countBytes();
     solved.report.outputs = std::move(outputs);
+    solved.report.bytesPeak = base::peakMemory();
 }
 
 }  // namespace fluxwalk::cli

@@ -13,6 +13,7 @@ namespace fluxwalk::cli {
 namespace {
 
 constexpr unsigned kMostThreads = 1024;
+constexpr double kLongestInterval = 1e9;  ///< seconds
 
 std::string typeName(const solve::OptionInfo& option) {
     switch (option.kind) {
@@ -22,6 +23,8 @@ std::string typeName(const solve::OptionInfo& option) {
             return "NAME";
         case solve::OptionKind::integer:
             return "N";
+        case solve::OptionKind::bytes:
+            return "BYTES";
         default:
             break;
     }
@@ -44,15 +47,26 @@ void set(SolverArguments& arguments, const solve::OptionInfo& option, double val
 
 void addCheckpointOptions(CLI::App& app, SolverArguments& arguments) {
     app.add_option("--checkpoint", arguments.checkpoint,
-                   "Keep the state of the solve in this file, as of the last level of refinement that was "
-                   "finished: written after each, so that a stop, a crash or a full disk leaves the one "
-                   "before. HDF5, readable from Python.")
+                   "Keep the state of the solve in this file: after each level of refinement, at intervals "
+                   "within, and before a stop. Written beside and renamed, so that a crash or a full disk "
+                   "leaves the one before. HDF5, readable from Python.")
         ->type_name("FILE")
+        ->group("Solver");
+    app.add_option_function<std::string>(
+           "--checkpoint-interval",
+           [&arguments](const std::string& text) {
+               arguments.checkpointInterval =
+                   parseNumberOption("--checkpoint-interval", text, 0.0, kLongestInterval, "s");
+           },
+           fmt::format("Time between checkpoints within a level. Default {:g} s; 0 keeps one after every "
+                       "wave of links.",
+                       arguments.checkpointInterval))
+        ->type_name("S")
         ->group("Solver");
     app.add_option("--resume", arguments.resume,
                    "Go on from a checkpoint of the same SCENE (and --sky), to the same bits as a solve that "
                    "was not interrupted. Its options hold unless they are typed anew; --seed, --clusters and "
-                   "--rays cannot change, and --time-limit counts anew.")
+                   "--rays cannot change, --time-limit counts anew, and --memory-limit is the machine's.")
         ->type_name("FILE")
         ->group("Solver");
 }

@@ -18,6 +18,7 @@ struct SolverArguments {
     /// What was typed, in order: it goes before what a resumed checkpoint says.
     std::vector<std::pair<const solve::OptionInfo*, double>> typed;
     std::filesystem::path checkpoint;  ///< the state of the solve is kept here, empty for nowhere
+    double checkpointInterval = 60.0;  ///< seconds between two of them within a level
     std::filesystem::path resume;      ///< the solve goes on from this checkpoint, empty for a new one
     unsigned threads = 0;              ///< 0: all that the machine has
 };

@@ -87,6 +87,17 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     out.tables.push_back(makeTable(cells, topology.surface().patchCount(), std::move(firstTriangle)));
 }
 
+// Meshes stay for long: room that was reserved for the worst case is given back.
+void shrink(scene::LitMesh& mesh) {
+    mesh.positions.shrink_to_fit();
+    mesh.normals.shrink_to_fit();
+    mesh.irradiance.shrink_to_fit();
+    mesh.triangles.shrink_to_fit();
+    for (std::vector<base::Vec2>& set : mesh.texcoords) {
+        set.shrink_to_fit();
+    }
+}
+
 }  // namespace
 
 DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
@@ -111,6 +122,7 @@ DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t ob
         mesh->material = material;
         mesh->back = back;
         buildSide(topology, side, options, *mesh, out);
+        shrink(*mesh);
         out.meshes.push_back(mesh);
     }
     return out;

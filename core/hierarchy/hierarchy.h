@@ -158,6 +158,10 @@ class Hierarchy {
     /// Quarters leaves. Children take over their parent's irradiance. Ids must be distinct leaves; the order
     /// fixes the new ids.
     void split(std::span<const NodeId> leaves, const base::Executor& executor);
+    /// Takes back the quartering of elements where neither the children nor anything below them is needed
+    /// (`isNeeded` by node). Patches, clusters and sources stay where they are. Returns the new place of
+    /// each node, NodeId::none where it is gone.
+    std::vector<NodeId> prune(const std::vector<std::uint8_t>& isNeeded);
     /// Means and deviations of the clusters' light, from their patches.
     void pullClusters();
 

@@ -1,5 +1,6 @@
 #include "core/solve/checkpoint.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
@@ -16,8 +17,9 @@ namespace {
 
 constexpr const char* kKind = "fluxwalk checkpoint";
 /// Changes with the arrays and with whatever alters the bits of a solve.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMaxHistory = 100'000;
+constexpr std::uint32_t kMostSweeps = 1000;
 
 using Counter = std::pair<const char*, std::uint64_t Counters::*>;
 constexpr std::array kCounters = {
@@ -31,6 +33,7 @@ constexpr std::array kCounters = {
     Counter{"counters/certificates", &Counters::certificates},
     Counter{"counters/bytes-nodes", &Counters::bytesNodes},
     Counter{"counters/bytes-links", &Counters::bytesLinks},
+    Counter{"counters/bytes-counted", &Counters::bytesCounted},
 };
 
 using Time = std::pair<const char*, double StageTimes::*>;
@@ -47,6 +50,7 @@ struct Level {
 };
 constexpr std::array kLevel = {
     Level{"level/threshold", "lux", &Statistics::threshold},
+    Level{"level/largest-error", "lux", &Statistics::largestError},
     Level{"level/residual", "", &Statistics::residual},
     Level{"level/estimated-error", "", &Statistics::estimatedError},
     Level{"level/mean-irradiance", "lux", &Statistics::meanIrradiance},
@@ -64,7 +68,8 @@ constexpr std::array kPast = {
     Past{"history/error", "", &HistoryEntry::error},
 };
 constexpr const char* kPastLinks = "history/links";
-constexpr const char* kTimeLimit = "time-limit";
+/// Limits of a machine or an evening are no part of a state.
+constexpr std::array<std::string_view, 2> kOwn = {"time-limit", "memory-limit"};
 
 template <class T>
 void addValue(base::NamedArrays& arrays, std::string name, T value, std::string unit = {}) {
@@ -135,6 +140,17 @@ void restoreStatistics(Statistics& statistics, const base::ArrayReader& reader) 
     }
 }
 
+void restoreStage(LoopState& loop, const base::ArrayReader& reader) {
+    const auto stage = reader.value<std::uint8_t>("level/stage");
+    const auto sweeps = reader.value<std::uint32_t>("level/sweeps");
+    if (stage > static_cast<std::uint8_t>(Stage::sweep) || sweeps > kMostSweeps) {
+        reader.fail("level", "is no stage of a solve");
+    }
+    loop.stage = static_cast<Stage>(stage);
+    loop.sweeps = static_cast<int>(sweeps);
+    loop.isCoarsening = reader.value<std::uint8_t>("level/is-coarsening") != 0;
+}
+
 void checkKind(const base::NamedArrays& arrays, const base::ArrayReader& reader) {
     if (arrays.kind != kKind) {
         reader.fail("", "is no checkpoint");
@@ -176,6 +192,9 @@ base::NamedArrays saveState(const Problem& problem, LoopState& loop) {
     saveStatistics(arrays, problem.statistics);
     addValue(arrays, "level/ambient", loop.ambient, "lux");
     addValue(arrays, "level/has-changed", static_cast<std::uint8_t>(loop.hasChanged ? 1 : 0));
+    addValue(arrays, "level/stage", static_cast<std::uint8_t>(loop.stage));
+    addValue(arrays, "level/sweeps", static_cast<std::uint32_t>(loop.sweeps));
+    addValue(arrays, "level/is-coarsening", static_cast<std::uint8_t>(loop.isCoarsening ? 1 : 0));
     std::vector<float> gathered;
     for (const Rgb& e : loop.gathered) {
         gathered.insert(gathered.end(), {e.r, e.g, e.b});
@@ -183,6 +202,7 @@ base::NamedArrays saveState(const Problem& problem, LoopState& loop) {
     arrays.arrays.push_back({"probes/irradiance", std::move(gathered), 3, "lux"});
     saveNodes(arrays, problem.hierarchy);
     saveLinks(arrays, problem.links);
+    savePending(arrays, problem.pending);
     return arrays;
 }
 
@@ -196,12 +216,17 @@ void restoreState(Problem& problem, LoopState& loop, const base::NamedArrays& ar
     const Options stored = storedOptions(arrays, problem.options, file);
     checkFixed(problem, stored, reader);
     restoreNodes(problem, reader);
-    restoreLinks(problem, reader);
+    restoreStage(loop, reader);
+    restoreLinks(problem, reader, loop.stage != Stage::refine);
+    restorePending(problem, reader);
     const double build = problem.statistics.times.build;
     restoreStatistics(problem.statistics, reader);
     problem.statistics.times.build += build;
     problem.rowScale.clear();
 
+    if (!problem.pending.empty() && loop.stage != Stage::refine) {
+        reader.fail("level/stage", "does not agree with the pairs that are pending");
+    }
     loop.isStarted = true;
     loop.ambient = finite(reader, "level/ambient", reader.value<double>("level/ambient"));
     // Smaller elements may be allowed now.
@@ -226,12 +251,12 @@ Options storedOptions(const base::NamedArrays& arrays, const Options& others, co
         const std::string name = "options/" + std::string(option.name);
         const double value = reader.value<double>(name);
         const bool isWhole = option.kind == OptionKind::integer || option.kind == OptionKind::choice ||
-                             option.kind == OptionKind::flag;
+                             option.kind == OptionKind::bytes || option.kind == OptionKind::flag;
         if (!(value >= option.minimum && value <= option.maximum) ||
             (isWhole && value != std::floor(value))) {
             reader.fail(name, "is out of its range");
         }
-        if (option.name != kTimeLimit) {
+        if (std::find(kOwn.begin(), kOwn.end(), option.name) == kOwn.end()) {
             option.set(options, value);
         }
     }

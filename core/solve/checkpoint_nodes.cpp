@@ -11,10 +11,8 @@ namespace {
 
 using base::ArrayReader;
 using base::NamedArrays;
-using hierarchy::GradientCode;
 using hierarchy::Hierarchy;
 using hierarchy::Light;
-using hierarchy::Link;
 using hierarchy::NodeKind;
 
 /// Reflectance and emission follow from the scene.
@@ -119,43 +117,6 @@ void replaySplits(Problem& problem, const ArrayReader& reader, const std::vector
     h.split(leaves, problem.executor);
 }
 
-template <class T>
-std::vector<T> column(const std::vector<Link>& links, T (*get)(const Link&)) {
-    std::vector<T> values;
-    values.reserve(links.size());
-    for (const Link& link : links) {
-        values.push_back(get(link));
-    }
-    return values;
-}
-
-std::vector<std::int8_t> gradients(const std::vector<Link>& links, GradientCode Link::*end) {
-    std::vector<std::int8_t> values;
-    values.reserve(2 * links.size());
-    for (const Link& link : links) {
-        values.push_back((link.*end).s);
-        values.push_back((link.*end).t);
-    }
-    return values;
-}
-
-bool isSurface(const Hierarchy& h, NodeId id) {
-    return h.kind(id) == NodeKind::element || h.kind(id) == NodeKind::cluster;
-}
-
-bool hasCluster(const Hierarchy& h, const Link& link) {
-    return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
-}
-
-// What refinement makes: sources without area stand second and with elements alone; only elements see
-// themselves.
-bool isPossible(const Hierarchy& h, const Link& link) {
-    const bool isPair = isSurface(h, link.a) && isSurface(h, link.b);
-    const bool isSourceLink = h.kind(link.a) == NodeKind::element && !isSurface(h, link.b);
-    return (isPair || isSourceLink) && (link.a != link.b || h.kind(link.a) == NodeKind::element) &&
-           std::isfinite(link.coupling);
-}
-
 }  // namespace
 
 void saveNodes(NamedArrays& arrays, const Hierarchy& h) {
@@ -182,24 +143,6 @@ void saveNodes(NamedArrays& arrays, const Hierarchy& h) {
         residual.push_back(h.light(NodeId{i}).residual);
     }
     arrays.arrays.push_back({kResidual, std::move(residual), 1, "lm/m2"});
-}
-
-void saveLinks(NamedArrays& arrays, const hierarchy::LinkStore& store) {
-    const std::vector<Link>& links = store.links;
-    const auto add = [&arrays](const char* name, auto values, std::uint32_t columns = 1,
-                               const char* unit = "") {
-        arrays.arrays.push_back({name, std::move(values), columns, unit});
-    };
-    add("links/with-clusters", std::vector<std::uint64_t>{store.clusterLinks});
-    add("links/a", column<std::uint32_t>(links, [](const Link& l) { return base::index(l.a); }));
-    add("links/b", column<std::uint32_t>(links, [](const Link& l) { return base::index(l.b); }));
-    add("links/coupling", column<float>(links, [](const Link& l) { return l.coupling; }), 1, "m2");
-    add("links/visibility", column<std::uint16_t>(links, [](const Link& l) { return l.visibilityBits; }), 1,
-        "1/32767, top bit: certain");
-    add("links/spread-a", column<std::uint8_t>(links, [](const Link& l) { return l.spreadA; }));
-    add("links/spread-b", column<std::uint8_t>(links, [](const Link& l) { return l.spreadB; }));
-    add("links/gradient-a", gradients(links, &Link::gradientA), 2);
-    add("links/gradient-b", gradients(links, &Link::gradientB), 2);
 }
 
 void restoreNodes(Problem& problem, const ArrayReader& reader) {
@@ -235,48 +178,6 @@ void restoreNodes(Problem& problem, const ArrayReader& reader) {
         }
         h.light(NodeId{i}).residual = residual[i];
     }
-}
-
-void restoreLinks(Problem& problem, const ArrayReader& reader) {
-    const Hierarchy& h = problem.hierarchy;
-    const std::vector<std::uint32_t>& a = reader.values<std::uint32_t>("links/a");
-    const std::size_t count = a.size();
-    const std::vector<std::uint32_t>& b = reader.values<std::uint32_t>("links/b", 1, count);
-    const std::vector<float>& coupling = reader.values<float>("links/coupling", 1, count);
-    const std::vector<std::uint16_t>& visibility = reader.values<std::uint16_t>("links/visibility", 1, count);
-    const std::vector<std::uint8_t>& spreadA = reader.values<std::uint8_t>("links/spread-a", 1, count);
-    const std::vector<std::uint8_t>& spreadB = reader.values<std::uint8_t>("links/spread-b", 1, count);
-    const std::vector<std::int8_t>& gradientA = reader.values<std::int8_t>("links/gradient-a", 2, count);
-    const std::vector<std::int8_t>& gradientB = reader.values<std::int8_t>("links/gradient-b", 2, count);
-    const auto withClusters = reader.value<std::uint64_t>("links/with-clusters");
-    // Their lists of ends are indexed by 32 bits.
-    if (count >= base::index(NodeId::none) || withClusters > count) {
-        reader.fail("links/with-clusters", "there cannot be so many links");
-    }
-    std::vector<Link> links(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (a[i] >= h.nodeCount() || b[i] >= h.nodeCount()) {
-            reader.fail(a[i] >= h.nodeCount() ? "links/a" : "links/b", "names a node that is not there");
-        }
-        Link& link = links[i];
-        link.a = NodeId{a[i]};
-        link.b = NodeId{b[i]};
-        link.coupling = coupling[i];
-        link.visibilityBits = visibility[i];
-        link.spreadA = spreadA[i];
-        link.spreadB = spreadB[i];
-        link.gradientA = {gradientA[2 * i], gradientA[2 * i + 1]};
-        link.gradientB = {gradientB[2 * i], gradientB[2 * i + 1]};
-        if (!isPossible(h, link)) {
-            reader.fail("links", "link " + std::to_string(i) + " cannot be");
-        }
-        if (hasCluster(h, link) != (i < withClusters)) {
-            reader.fail("links/with-clusters", "does not agree with the links");
-        }
-    }
-    problem.links.links = std::move(links);
-    problem.links.clusterLinks = static_cast<std::size_t>(withClusters);
-    problem.links.index(h.nodeCount());
 }
 
 }  // namespace fluxwalk::solve

@@ -17,6 +17,11 @@ class DisplayUpdate {
     /// Displayed irradiance at probes; refreshes first.
     std::vector<Rgb> valuesAt(const std::vector<Probe>& probes);
 
+    /// What the meshes take, with what making, drawing or writing them does, in bytes.
+    std::uint64_t bytes() const;
+    /// Number of the hierarchy's nodes when they were made; 0 before.
+    std::size_t shownNodes() const { return shownNodes_; }
+
   private:
     /// Rebuilds what changed; curved surfaces with the given curvatureAngle (radians).
     void rebuild(double curvatureAngle);
@@ -26,6 +31,9 @@ class DisplayUpdate {
     std::vector<std::vector<NodeId>> patchesOf_;  ///< by object
     std::vector<std::unique_ptr<display::PatchTopology>> topologies_;
     std::vector<display::DisplayMeshes> meshes_;
+    std::size_t shownNodes_ = 0;
+    std::uint64_t refreshed_ =
+        0;  ///< bytes of the meshes when they were refreshed last, rounder than for probes
     std::vector<std::uint64_t> digests_;  ///< of each object's leaves and values
 };
 

@@ -66,6 +66,11 @@ struct Options {
     std::uint64_t seed = 1;
     /// Seconds after which the solver stops with what it has; 0 for none.
     double timeLimit = 0.0;
+    /// Most links, that is unordered pairs; 0 for no limit.
+    std::uint64_t linkLimit = 0;
+    /// Most bytes of memory that the process may hold; 0 for what it has and three quarters of what the
+    /// machine has left when the solver is made.
+    std::uint64_t memoryLimit = 0;
 };
 
 }  // namespace fluxwalk::solve

@@ -13,6 +13,9 @@ namespace fluxwalk::solve {
 namespace {
 
 constexpr double kLargestInteger = 0x1.0p53;
+/// Less than the program alone takes.
+constexpr double kLeastMemory = 0x1.0p20;
+constexpr std::string_view kByteUnits = "KMGT";
 
 std::vector<OptionInfo> makeTable() {
     std::vector<OptionInfo> table;
@@ -146,6 +149,26 @@ std::vector<OptionInfo> makeTable() {
                      .explanation = "Stop after this time and keep what is solved.",
                      .get = [](const Options& o) { return o.timeLimit; },
                      .set = [](Options& o, double value) { o.timeLimit = value; }});
+    table.push_back(
+        {.name = "link-limit",
+         .kind = OptionKind::integer,
+         .minimum = 0.0,
+         .maximum = 4e9,
+         .zero = "none",
+         .explanation = "Make no more links than this: those with the largest errors are refined first, and "
+                        "what error was reached is reported.",
+         .get = [](const Options& o) { return static_cast<double>(o.linkLimit); },
+         .set = [](Options& o, double value) { o.linkLimit = static_cast<std::uint64_t>(value); }});
+    table.push_back(
+        {.name = "memory-limit",
+         .kind = OptionKind::bytes,
+         .minimum = 0.0,
+         .maximum = kLargestInteger,
+         .zero = "automatic",
+         .explanation = "Let the program take no more memory than this, largest errors first; automatic is "
+                        "three quarters of what the machine has left.",
+         .get = [](const Options& o) { return static_cast<double>(o.memoryLimit); },
+         .set = [](Options& o, double value) { o.memoryLimit = static_cast<std::uint64_t>(value); }});
     return table;
 }
 
@@ -196,6 +219,44 @@ double parseFraction(const OptionInfo& option, std::string_view text) {
     rejectValue(option, text);
 }
 
+// Bytes with an optional K, M, G or T, each 1024 times the one before, and an optional "B" or "iB" behind.
+double parseBytes(const OptionInfo& option, std::string_view text) {
+    std::string_view digits = text;
+    double unit = 1.0;
+    if (digits.ends_with("iB")) {
+        digits.remove_suffix(2);
+    } else if (digits.ends_with('B')) {
+        digits.remove_suffix(1);
+    }
+    const std::size_t power = digits.empty() ? std::string_view::npos : kByteUnits.find(digits.back());
+    if (power != std::string_view::npos) {
+        digits.remove_suffix(1);
+        unit = std::exp2(10.0 * static_cast<double>(power + 1));
+        while (digits.ends_with(' ')) {
+            digits.remove_suffix(1);
+        }
+    }
+    const std::optional<double> number = parseNumber(digits);
+    if (!number) {
+        rejectValue(option, text);
+    }
+    const double value = std::floor(*number * unit);
+    if (value != 0.0 && !(value >= kLeastMemory && value <= option.maximum)) {
+        const bool isBare = digits.size() == text.size() && value > 0.0 && value < kLeastMemory;
+        rejectValue(option, text, isBare ? fmt::format("; did you mean {}G?", text) : "");
+    }
+    return value;
+}
+
+std::string formatBytes(double value) {
+    std::size_t power = 0;
+    for (; power < kByteUnits.size() && value >= 1024.0; ++power) {
+        value /= 1024.0;
+    }
+    return power == 0 ? fmt::format("{:.17g}", value)
+                      : fmt::format("{:.17g}{}", value, kByteUnits[power - 1]);
+}
+
 }  // namespace
 
 std::span<const OptionInfo> optionsTable() {
@@ -219,6 +280,9 @@ double parseOption(const OptionInfo& option, std::string_view text) {
     if (option.kind == OptionKind::fraction) {
         return parseFraction(option, text);
     }
+    if (option.kind == OptionKind::bytes) {
+        return parseBytes(option, text);
+    }
     const std::optional<double> value = parseNumber(text);
     const bool isWhole = value && *value == std::floor(*value);
     if (!value || *value < option.minimum || *value > option.maximum ||
@@ -229,6 +293,9 @@ double parseOption(const OptionInfo& option, std::string_view text) {
 }
 
 std::string formatOption(const OptionInfo& option, double value) {
+    if (value == 0.0 && !option.zero.empty()) {
+        return std::string(option.zero);
+    }
     switch (option.kind) {
         case OptionKind::fraction:
             return fmt::format("{:g} %", value * 100.0);
@@ -238,11 +305,10 @@ std::string formatOption(const OptionInfo& option, double value) {
             return value != 0.0 ? "on" : "off";
         case OptionKind::integer:
             return fmt::format("{:.0f}", value);
+        case OptionKind::bytes:
+            return formatBytes(value);
         case OptionKind::quantity:
             break;
-    }
-    if (value == 0.0 && !option.zero.empty()) {
-        return std::string(option.zero);
     }
     return option.unit.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, option.unit);
 }
@@ -261,6 +327,8 @@ std::string describeRange(const OptionInfo& option) {
         }
         case OptionKind::integer:
             return fmt::format("a whole number from {:.0f} to {:.0f}", option.minimum, option.maximum);
+        case OptionKind::bytes:
+            return fmt::format("bytes from {} on, as 512M or 4G", formatBytes(kLeastMemory));
         case OptionKind::fraction:
             return fmt::format("{:g} % to {:g} %", option.minimum * 100.0, option.maximum * 100.0);
         case OptionKind::quantity:

@@ -14,6 +14,7 @@ enum class OptionKind : std::uint8_t {
     fraction,  ///< shown and typed in percent ("2%" or 0.02)
     quantity,  ///< a real number with a unit
     integer,   ///< whole, up to 2^53
+    bytes,     ///< shown and typed with K, M, G or T for powers of 1024
     flag,      ///< 0 or 1
     choice     ///< index into `choices`
 };
@@ -21,7 +22,7 @@ enum class OptionKind : std::uint8_t {
 struct OptionInfo {
     std::string_view name{};  ///< as typed after "--", "time-limit"
     OptionKind kind = OptionKind::quantity;
-    std::string_view unit{};  ///< "lux", "m2", "s" or empty
+    std::string_view unit{};  ///< "lux", "m2", "s", "links" or empty
     double minimum = 0.0;
     double maximum = 0.0;
     std::vector<std::string_view> choices{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/random.h"
 #include "core/hierarchy/exposure.h"
@@ -62,6 +63,29 @@ double relativeRms(const std::vector<Rgb>& values, const std::vector<Rgb>& refer
     }
     const double n = 3.0 * static_cast<double>(std::max<std::size_t>(1, values.size()));
     return sum > 0.0 ? std::sqrt(squares / n) / (sum / n) : 0.0;
+}
+
+double relativeRmsOffLamps(const std::vector<Rgb>& values, const std::vector<Rgb>& reference) {
+    constexpr double kLampward = 10.0;
+    const auto sumOf = [](const Rgb& e) { return static_cast<double>(e.r + e.g + e.b); };
+    std::vector<std::size_t> order(reference.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return sumOf(reference[a]) < sumOf(reference[b]); });
+    std::vector<Rgb> kept;
+    std::vector<Rgb> keptReference;
+    double sum = 0.0;
+    for (const std::size_t i : order) {
+        const double own = sumOf(reference[i]);
+        // The median belongs to what is lit, whatever lies below it in the dark.
+        if (2 * kept.size() > order.size() && own * static_cast<double>(kept.size()) > kLampward * sum) {
+            break;
+        }
+        sum += own;
+        kept.push_back(values[i]);
+        keptReference.push_back(reference[i]);
+    }
+    return relativeRms(kept, keptReference);
 }
 
 }  // namespace fluxwalk::solve

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/base/photometry.h"
 #include "core/hierarchy/local_frame.h"
 #include "core/solve/assess_link.h"
+#include "core/solve/facing.h"
 #include "core/transport/coefficients.h"
 
 namespace fluxwalk::solve {
@@ -22,43 +25,6 @@ using transport::Query;
 /// Pairs whose coefficients are computed between two looks at the clock.
 constexpr std::size_t kGrain = 64;
 
-enum class Verdict : std::uint8_t { drop, accept, splitA, splitB, splitSelf };
-
-struct Decision {
-    Verdict verdict = Verdict::drop;
-    Link link;
-};
-
-bool isBehind(const Shape& plane, const Shape& other, float tolerance) {
-    if (!plane.isPlanar || plane.cornerCount == 0) {
-        return false;
-    }
-    const base::Vec3& n = plane.axis;
-    const float offset = glm::dot(n, plane.corners[0]);
-    if (!other.isPlanar || other.cornerCount == 0) {
-        return glm::dot(n, other.center) + other.radius <= offset + tolerance;
-    }
-    for (std::uint32_t i = 0; i < other.cornerCount; ++i) {
-        if (glm::dot(n, other.corners[i]) > offset + tolerance) {
-            return false;
-        }
-    }
-    return true;
-}
-
-// Whether no normal of `from` has a direction to `to` in its half-space (ALGORITHMS 1.4, facing test).
-bool facesAway(const Shape& from, const Shape& to) {
-    const base::Vec3 d = to.center - from.center;
-    const float distance = glm::length(d);
-    const float reach = from.radius + to.radius;
-    if (distance <= reach) {
-        return false;
-    }
-    const double between = base::NormalCone::angleBetween(Vec3d(from.axis), glm::normalize(Vec3d(d)));
-    const double delta = std::asin(std::min(1.0, static_cast<double>(reach / distance)));
-    return between - static_cast<double>(from.halfAngle) - delta >= 0.5 * base::kPi;
-}
-
 class Refinement {
   public:
     Refinement(Problem& problem, double threshold)
@@ -70,36 +36,68 @@ class Refinement {
           sceneArea_(static_cast<float>(problem.hierarchy.totalArea())),
           tolerance_(1e-6f * static_cast<float>(problem.scene->bounds().diagonal())) {}
 
-    // Pairs that start the first refinement.
-    std::vector<Query> fromRoot() const {
-        const NodeId root = hierarchy_.root();
-        return root == NodeId::none ? std::vector<Query>{} : std::vector<Query>{{root, root}};
+    // What starts the first refinement, and any that begins anew: the root sees itself.
+    void beginAtRoot() {
+        if (hierarchy_.root() != NodeId::none) {
+            Decision d;
+            d.link.a = d.link.b = hierarchy_.root();
+            d.verdict = Verdict::splitSelf;
+            problem_.pending.push_back(d);
+        }
     }
 
-    // Takes the links whose error has become too large out of the store and returns what they split into.
-    std::vector<Query> fromStandingLinks() {
+    // Takes the links whose error has become too large out of the store.
+    void beginAtStandingLinks() {
         std::vector<Link>& links = problem_.links.links;
-        std::vector<Verdict> verdicts(links.size());
+        std::vector<Decision> decisions(links.size());
         problem_.executor.forRange(links.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                verdicts[i] = judge(links[i]);
+                decisions[i].link = links[i];
+                judge(decisions[i]);
             }
         });
-        std::vector<Decision> opened;
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < links.size(); ++i) {
-            if (verdicts[i] == Verdict::accept) {
-                links[kept++] = links[i];
-            } else {
-                opened.push_back({verdicts[i], links[i]});
-            }
-        }
-        links.resize(kept);
-        return openPairs(opened);
+        links.clear();
+        sortIn(decisions);
     }
 
-    // One wave: coefficients of all pairs, then accept, drop or split.
-    std::vector<Query> runWave(const std::vector<Query>& pairs) {
+    // One wave: splits what is most in need of it and decides on what comes of that. False where a budget
+    // has no room for it.
+    bool runWave(const Budget& budget) {
+        const std::vector<Decision> opened =
+            takeNext(problem_.pending, hierarchy_, budget, problem_.links.links.size());
+        if (opened.empty()) {
+            return false;
+        }
+        decideAll(openPairs(problem_.hierarchy, problem_.executor, opened));
+        return true;
+    }
+
+    // From here on every link stands that can.
+    void acceptAll() {
+        threshold_ = INFINITY;
+        std::vector<Decision> pending = std::exchange(problem_.pending, {});
+        std::vector<Query> unknown;
+        for (const Decision& d : pending) {
+            if (!d.canStand()) {
+                problem_.pending.push_back(d);
+                continue;
+            }
+            if (d.isComputed) {
+                noteStanding(d.error);
+                problem_.links.links.push_back(d.link);
+            } else {
+                unknown.push_back({d.link.a, d.link.b, d.link.isOpen()});
+            }
+        }
+        decideAll(unknown);
+    }
+
+    // The largest error in lux of a link that stands without being fine enough, 0 for none.
+    float largestError() const { return largestError_; }
+
+  private:
+    // Coefficients of all pairs, then accept, drop or keep for the next wave.
+    void decideAll(const std::vector<Query>& pairs) {
         std::vector<Decision> decisions(pairs.size());
         std::vector<Counters> counts((pairs.size() + kGrain - 1) / kGrain);
         problem_.executor.forRange(pairs.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -114,25 +112,25 @@ class Refinement {
             total.certificates += c.certificates;
         }
         ++total.waves;
-        std::vector<Decision> opened;
+        sortIn(decisions);
+    }
+
+    void sortIn(const std::vector<Decision>& decisions) {
         for (const Decision& d : decisions) {
             if (d.verdict == Verdict::accept) {
                 problem_.links.links.push_back(d.link);
+                if (threshold_ == INFINITY) {
+                    noteStanding(d.error);
+                }
             } else if (d.verdict != Verdict::drop) {
-                opened.push_back(d);
+                problem_.pending.push_back(d);
             }
         }
-        return openPairs(opened);
     }
 
-    void acceptAll() { threshold_ = INFINITY; }
+    void noteStanding(float error) { largestError_ = std::max(largestError_, error); }
 
-  private:
     bool isSplittable(NodeId id) const { return hierarchy_.canSplit(id, minArea_); }
-
-    bool isSource(NodeId id) const {
-        return hierarchy_.kind(id) == NodeKind::light || hierarchy_.kind(id) == NodeKind::sky;
-    }
 
     Verdict chooseSplit(const Link& link, bool preferA) const {
         const bool canA = isSplittable(link.a);
@@ -144,43 +142,57 @@ class Refinement {
     }
 
     // How a concave element that sees itself goes on.
-    Verdict judgeSelf(NodeId id) const {
+    void judgeSelf(Decision& d) const {
+        const NodeId id = d.link.a;
         const hierarchy::ElementName name = hierarchy_.name(id);
         if (hierarchy_.surfaceOf(id).exactKernel(name.back) || !isSplittable(id)) {
-            return Verdict::accept;
+            d.verdict = Verdict::accept;
+            d.error = 0.0f;
+            return;
         }
         const Shape& shape = hierarchy_.shape(id);
         const hierarchy::Light& light = hierarchy_.light(id);
         const OracleKind oracle = problem_.options.oracle;
         const float range = oracle == OracleKind::strict ? light.range() : 0.0f;
-        const float error =
-            transport::assessSelf(oracle, {.area = shape.exposedArea(),
-                                           .halfAngle = shape.halfAngle,
-                                           .radiosity = base::channelMean(light.radiosity) + range,
-                                           .sceneArea = sceneArea_});
-        return error <= threshold_ ? Verdict::accept : Verdict::splitSelf;
+        d.error =
+            limitError(transport::assessSelf(oracle, {.area = shape.exposedArea(),
+                                                      .halfAngle = shape.halfAngle,
+                                                      .radiosity = base::channelMean(light.radiosity) + range,
+                                                      .sceneArea = sceneArea_}));
+        d.verdict = d.error <= threshold_ ? Verdict::accept : Verdict::splitSelf;
     }
 
+    // Sampled errors may be infinite where elements touch, and still their link may stand.
+    static float limitError(float error) { return std::min(error, std::numeric_limits<float>::max()); }
+
     // From what the link keeps alone, so that a new pair and a standing link are judged alike.
-    Verdict judge(const Link& link) const {
+    void judge(Decision& d) const {
+        const Link& link = d.link;
+        d.isComputed = true;
         if (link.a == link.b) {
-            return judgeSelf(link.a);
+            judgeSelf(d);
+            return;
         }
         if (isCluster(link.a) || isCluster(link.b)) {
             if (!problem_.takesClusterLinks()) {
-                return splitCluster(link.a, link.b);
+                d.verdict = splitCluster(link.a, link.b);
+                return;
             }
+            d.error = boundExchange(link.a, link.b);
             if (isMinorPair(link.a, link.b)) {
-                return Verdict::accept;
+                d.verdict = Verdict::accept;
+                return;
             }
             // Points prove nothing.
             const bool isStrict = problem_.options.oracle == OracleKind::strict;
             if (isStrict || !areApart(link.a, link.b) || link.coupling <= 0.0f) {
-                return splitCluster(link.a, link.b);
+                d.verdict = splitCluster(link.a, link.b);
+                return;
             }
         }
         const transport::LinkAssessment assessment = assessLink(problem_, link, threshold_);
-        return assessment.error <= threshold_ ? Verdict::accept : chooseSplit(link, assessment.splitA);
+        d.error = limitError(assessment.error);
+        d.verdict = d.error <= threshold_ ? Verdict::accept : chooseSplit(link, assessment.splitA);
     }
 
     Decision decide(const Query& pair, Counters& counters) const {
@@ -215,11 +227,12 @@ class Refinement {
         if (c.isBlocked || (c.coupling <= 0.0f && problem_.options.oracle != OracleKind::strict)) {
             return d;
         }
+        // Also where the pair will be split: it must be judged as its standing link would be.
         if (const unsigned before = c.rays; service_.settleContact(pair, c)) {
             counters.rays += c.rays - before;
         }
         setCoefficient(d.link, c);
-        d.verdict = judge(d.link);
+        judge(d);
         return d;
     }
 
@@ -241,7 +254,7 @@ class Refinement {
             hierarchy_.shape(pair.a).exposedCells == 0) {
             return d;
         }
-        d.verdict = judgeSelf(pair.a);
+        judgeSelf(d);
         if (d.verdict == Verdict::accept) {
             // Also where no sample saw another one: more light may ask for its parts.
             Coefficient c;
@@ -261,14 +274,22 @@ class Refinement {
         return isA ? Verdict::splitA : Verdict::splitB;
     }
 
-    // Whether all that a pair could exchange, were nothing lost on the way, is below the threshold.
-    bool isMinorPair(NodeId a, NodeId b) const {
+    // All that a pair could exchange, were nothing lost on the way, as an error in lux.
+    float boundExchange(NodeId a, NodeId b) const {
         const auto radiosity = [this](NodeId id) {
             const hierarchy::Light& light = hierarchy_.light(id);
             return base::channelMean(light.radiosity) + light.range();
         };
         const float area = std::min(hierarchy_.shape(a).exposedArea(), hierarchy_.shape(b).exposedArea());
-        return area * std::max(radiosity(a), radiosity(b)) <= threshold_ * sceneArea_;
+        return limitError(area * std::max(radiosity(a), radiosity(b)) / sceneArea_);
+    }
+
+    bool isMinorPair(NodeId a, NodeId b) const { return boundExchange(a, b) <= threshold_; }
+
+    // Light sources without area stay with single patches, and nothing is shared through a closed wall.
+    bool mayLinkClusters(NodeId a, NodeId b) const {
+        return problem_.takesClusterLinks() && hierarchy_.shape(a).area > 0.0f &&
+               hierarchy_.shape(b).area > 0.0f && hierarchy_.isInOneRoom(a) && hierarchy_.isInOneRoom(b);
     }
 
     // Whether points stand for a cluster in its exchange with another node: clusters must be apart by their
@@ -304,13 +325,10 @@ class Refinement {
              isBehind(b, a, tolerance_))) {
             return d;
         }
-        // Light sources without area stay with single patches, and nothing is shared through a closed wall.
-        const bool areSurfaces = a.area > 0.0f && b.area > 0.0f;
-        const bool isMinor = areSurfaces && isMinorPair(pair.a, pair.b);
-        const bool areInRooms = hierarchy_.isInOneRoom(pair.a) && hierarchy_.isInOneRoom(pair.b);
-        if (!problem_.takesClusterLinks() || !areSurfaces || !areInRooms ||
-            (!isMinor && !areApart(pair.a, pair.b))) {
+        const bool mayLink = mayLinkClusters(pair.a, pair.b);
+        if (!mayLink || (!isMinorPair(pair.a, pair.b) && !areApart(pair.a, pair.b))) {
             d.verdict = splitCluster(pair.a, pair.b);
+            d.error = mayLink ? boundExchange(pair.a, pair.b) : INFINITY;
             return d;
         }
         if (a.exposedArea() <= 0.0f || b.exposedArea() <= 0.0f) {
@@ -323,7 +341,7 @@ class Refinement {
             return d;
         }
         setCoefficient(d.link, c);
-        d.verdict = judge(d.link);
+        judge(d);
         return d;
     }
 
@@ -347,56 +365,6 @@ class Refinement {
         link.spreadB = hierarchy::UncertaintyCode::encode(c.spreadB);
     }
 
-    // Splits the nodes that need children and returns the pairs that replace the opened ones, in their order.
-    std::vector<Query> openPairs(const std::vector<Decision>& opened) {
-        std::vector<NodeId> leaves;
-        const auto want = [&](NodeId id) {
-            if (hierarchy_.isLeaf(id) && hierarchy_.kind(id) == NodeKind::element) {
-                leaves.push_back(id);
-            }
-        };
-        for (const Decision& d : opened) {
-            want(d.verdict == Verdict::splitB ? d.link.b : d.link.a);
-        }
-        std::sort(leaves.begin(), leaves.end());
-        leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-        problem_.hierarchy.split(leaves, problem_.executor);
-
-        std::vector<Query> next;
-        next.reserve(opened.size() * 4);
-        for (const Decision& d : opened) {
-            const NodeId a = d.link.a;
-            const NodeId b = d.link.b;
-            const bool open = d.link.isOpen();
-            if (d.verdict == Verdict::splitSelf) {
-                const unsigned n = hierarchy_.childCount(a);
-                for (unsigned i = 0; i < n; ++i) {
-                    for (unsigned j = i; j < n; ++j) {
-                        next.push_back(ordered(hierarchy_.child(a, i), hierarchy_.child(a, j), open));
-                    }
-                }
-                continue;
-            }
-            const NodeId from = d.verdict == Verdict::splitA ? a : b;
-            const NodeId other = d.verdict == Verdict::splitA ? b : a;
-            for (unsigned i = 0; i < hierarchy_.childCount(from); ++i) {
-                next.push_back(ordered(hierarchy_.child(from, i), other, open));
-            }
-        }
-        return next;
-    }
-
-    // Sources without area stand second; otherwise the order of the keys makes the pair independent of how it
-    // was reached.
-    Query ordered(NodeId a, NodeId b, bool open) const {
-        const bool sourceA = isSource(a);
-        const bool sourceB = isSource(b);
-        if (sourceA != sourceB) {
-            return sourceA ? Query{b, a, open} : Query{a, b, open};
-        }
-        return hierarchy_.key(a) <= hierarchy_.key(b) ? Query{a, b, open} : Query{b, a, open};
-    }
-
     Problem& problem_;
     const Hierarchy& hierarchy_;
     transport::CoefficientService service_;
@@ -404,37 +372,59 @@ class Refinement {
     double minArea_;
     float sceneArea_;
     float tolerance_;
+    float largestError_ = 0.0f;
 };
 
-}  // namespace
-
-bool refineLinks(Problem& problem, double threshold, const std::function<bool()>& shouldStop) {
-    const StageTimer timer(problem.statistics.times.refine);
-    problem.hierarchy.pullClusters();
-    Refinement refinement(problem, threshold);
-    const bool isFirst = problem.links.links.empty();
-    std::vector<Query> pairs = isFirst ? refinement.fromRoot() : refinement.fromStandingLinks();
-    const bool changed = !pairs.empty();
-    while (!pairs.empty()) {
-        if (shouldStop && shouldStop()) {
-            refinement.acceptAll();
-        }
-        pairs = refinement.runWave(pairs);
-    }
+// Links with clusters stand first.
+void orderLinks(Problem& problem) {
     const Hierarchy& h = problem.hierarchy;
     std::vector<Link>& links = problem.links.links;
     const auto withClusters = std::stable_partition(links.begin(), links.end(), [&h](const Link& link) {
         return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
     });
     problem.links.clusterLinks = static_cast<std::size_t>(withClusters - links.begin());
-    problem.links.index(problem.hierarchy.nodeCount());
+    problem.links.index(h.nodeCount());
+}
+
+void countLinks(Problem& problem) {
     Counters& counters = problem.statistics.counters;
     counters.nodes = problem.hierarchy.nodeCount();
     counters.leaves = problem.hierarchy.leafCount();
     counters.links = problem.links.links.size();
     counters.bytesNodes = counters.nodes * Hierarchy::bytesPerNode();
     counters.bytesLinks = problem.links.bytes();
-    return changed;
+}
+
+}  // namespace
+
+Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
+                    const std::function<bool()>& shouldStop) {
+    const StageTimer timer(problem.statistics.times.refine);
+    Refinement refinement(problem, threshold);
+    problem.links.clusterLinks = 0;
+    if (problem.pending.empty()) {
+        problem.hierarchy.pullClusters();
+        if (problem.links.links.empty()) {
+            refinement.beginAtRoot();
+        } else {
+            refinement.beginAtStandingLinks();
+        }
+    }
+    Refined refined;
+    refined.hasChanged = !problem.pending.empty();
+    while (!problem.pending.empty()) {
+        if (shouldStop && shouldStop()) {
+            refinement.acceptAll();
+        }
+        if (!problem.pending.empty() && !refinement.runWave(budget)) {
+            refined.limit = budget.nearest(problem.hierarchy.nodeCount(), problem.linkCount());
+            refinement.acceptAll();
+        }
+    }
+    problem.statistics.largestError = std::max(threshold, static_cast<double>(refinement.largestError()));
+    orderLinks(problem);
+    countLinks(problem);
+    return refined;
 }
 
 }  // namespace fluxwalk::solve

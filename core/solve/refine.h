@@ -6,11 +6,19 @@
 
 namespace fluxwalk::solve {
 
-/// Refines until no link's error exceeds `threshold` (lux, see Oracle): breadth-first waves of bounds,
-/// deferred coefficients in one batch, then accept, split or drop (ALGORITHMS 1.2, 1.13). The first call
-/// starts from one link of the root onto itself, later ones from the links that stand. Returns whether
-/// anything changed. `shouldStop` is asked between waves: then all pairs still open are accepted as they are,
-/// so that links tile the scene at all times.
-bool refineLinks(Problem& problem, double threshold, const std::function<bool()>& shouldStop);
+struct Refined {
+    bool hasChanged = false;    ///< there was something to refine
+    Limit limit = Limit::none;  ///< what left some of it as it was
+};
+
+/// Refines until no link's error exceeds `threshold` (lux, see Oracle): waves of bounds, deferred
+/// coefficients in one batch, then accept, split or drop (ALGORITHMS 1.2, 1.13); breadth first as long as
+/// `budget` is far, then the largest errors first. Goes on with the pairs that are pending; else starts from
+/// the links that stand, or, where there are none, from one link of the root onto itself. `shouldStop` is
+/// asked between waves, where the pending pairs and links are all there is to go on from; when it says so, or
+/// the budget is spent, all pairs still pending are accepted as they are, so that links tile the scene at all
+/// times. Throws base::UsageError where not even the coarsest links fit into the budget.
+Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
+                    const std::function<bool()>& shouldStop);
 
 }  // namespace fluxwalk::solve

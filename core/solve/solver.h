@@ -26,7 +26,20 @@ struct Snapshot {
 };
 
 /// Why solve() returned.
-enum class Outcome : std::uint8_t { reachedError, reachedTimeLimit, stopped };
+enum class Outcome : std::uint8_t {
+    reachedError,
+    reachedTimeLimit,
+    reachedLinkLimit,
+    reachedMemoryLimit,
+    stopped
+};
+
+/// Moments of a solve from which it can go on to the same bits.
+enum class Moment : std::uint8_t {
+    wave,   ///< between two waves of refinement, or two sweeps
+    level,  ///< after a level of refinement that was not cut short
+    stop    ///< before a stop or the time limit cuts a level short
+};
 
 /// Called on the solving thread, between waves and sweeps. All may be empty.
 struct Callbacks {
@@ -36,9 +49,8 @@ struct Callbacks {
     std::function<bool()> shouldStop;
     /// Asked at wave boundaries; new options take effect there (error, oracle, threshold, minArea).
     std::function<std::optional<Options>()> newOptions;
-    /// Called after each level that was not cut short: Solver::checkpoint() then gives what the solve can go
-    /// on from to the same bits.
-    std::function<void()> levelDone;
+    /// Called at all of these; Solver::checkpoint() then gives what the solve can go on from.
+    std::function<void(Moment)> resumable;
     /// Progress in [0, 1] towards the requested error, with a short description of the stage.
     std::function<void(double, const char*)> progress;
 };
@@ -49,10 +61,12 @@ class Solver {
     ~Solver();
 
     /// Runs until the requested error, a limit or a stop. May be called again with other options: it goes on
-    /// from where it is, or only shows the solution anew where they ask for no more than it has.
+    /// from where it is, or only shows the solution anew where they ask for no more than it has. A threshold
+    /// that rose to more than twice what the links were refined to, and budgets below what they take, make
+    /// them coarser again. Throws base::UsageError where a budget is too small for the scene.
     Outcome solve(const Callbacks& callbacks);
 
-    /// The state as named arrays (checkpoint.h); for Callbacks::levelDone.
+    /// The state as named arrays (checkpoint.h); for Callbacks::resumable.
     base::NamedArrays checkpoint() const;
     /// Goes on from such a state, for a solver that was just made of the same scene; solve() then does what
     /// it would have done next. The time limit counts from here. Throws base::FileError that names `file`,
@@ -62,6 +76,9 @@ class Solver {
     void setOptions(const Options& options);
     const Options& options() const;
     const Statistics& statistics() const;
+    /// What the solve takes now, as the memory limit counts it: all that it holds, and what refining,
+    /// sweeping and showing take on the way.
+    std::uint64_t countBytes() const;
     /// Display meshes of the present solution, for all objects.
     scene::LitMeshes litMeshes() const;
 
@@ -69,6 +86,8 @@ class Solver {
     const Problem& problem() const;
 
   private:
+    void start();
+    void tighten();
     double estimateError();
 
     struct State;

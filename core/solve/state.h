@@ -8,6 +8,7 @@
 #include "core/hierarchy/links.h"
 #include "core/rays/ray_scene.h"
 #include "core/solve/options.h"
+#include "core/solve/pending_pairs.h"
 #include "core/solve/statistics.h"
 
 /// What a solve works on; shared by the stages of this layer and by gathering at points.
@@ -16,6 +17,9 @@ namespace fluxwalk::solve {
 using base::NodeId;
 using base::Rgb;
 using base::Vec3d;
+
+/// Without cluster links all pairs of patches are linked: more patches than this would fill the memory.
+inline constexpr std::size_t kMaxPairedPatches = 8000;
 
 struct Problem {
     Problem(std::shared_ptr<const scene::Scene> what, const Options& chosen, unsigned threads)
@@ -31,6 +35,8 @@ struct Problem {
     rays::RayScene rays;
     hierarchy::Hierarchy hierarchy;
     hierarchy::LinkStore links;
+    /// Pairs that refinement still has to split; empty where it is not at work.
+    std::vector<Decision> pending;
     Statistics statistics;
     /// Factor of each node on all its transfers, from row scaling; empty while it is off.
     std::vector<float> rowScale;
@@ -40,6 +46,8 @@ struct Problem {
         return options.clusterLinks == ClusterLinks::automatic ? hierarchy.patches().size() > kManyPatches
                                                                : options.clusterLinks == ClusterLinks::on;
     }
+    /// Links, and what may become one.
+    std::size_t linkCount() const { return links.links.size() + pending.size(); }
     /// Smallest area in m2 that is still split.
     double minArea() const { return options.minArea > 0.0 ? options.minArea : 1e-7 * hierarchy.totalArea(); }
 };

@@ -46,6 +46,7 @@ struct Counters {
     std::uint64_t certificates = 0;  ///< links whose visibility needed no ray
     std::uint64_t bytesNodes = 0;
     std::uint64_t bytesLinks = 0;
+    std::uint64_t bytesCounted = 0;  ///< all that the solve takes, as budgets count it
 };
 
 /// One entry of the convergence history.
@@ -61,8 +62,9 @@ struct Statistics {
     Counters counters;
     StageTimes times;
     Audit audit;
-    double threshold = 0.0;        ///< lux, of the present level
-    double residual = 0.0;         ///< relative
+    double threshold = 0.0;     ///< lux, of the present level
+    double largestError = 0.0;  ///< lux, of a link as it stands: the threshold, or more where a limit left it
+    double residual = 0.0;      ///< relative
     double estimatedError = -1.0;  ///< p, negative while unknown
     double meanIrradiance = 0.0;   ///< lux, mean of the channels over all reached sides
     std::vector<HistoryEntry> history;

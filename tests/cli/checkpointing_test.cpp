@@ -110,11 +110,26 @@ TEST_F(Checkpoints, WhereNoneCanBeKeptIsSaidBeforeTheWork) {
     EXPECT_NE(err.find("a.fwc: cannot be written"), std::string::npos) << err;
 }
 
-TEST_F(Checkpoints, AStopInTheFirstLevelIsSaid) {
-    const auto [code, err] = solve("a.glb", {"--time-limit", "0.000001", "--checkpoint", path("a.fwc")});
+// Before the first wave, and still the result is that of a solve without a stop.
+TEST_F(Checkpoints, AStopInTheFirstLevelIsKept) {
+    const auto [code, err] =
+        solve("a.glb", {"--error", "10%", "--time-limit", "0.000001", "--checkpoint", path("a.fwc")});
     EXPECT_EQ(code, 0);
-    EXPECT_NE(err.find("a.fwc: stopped within the first level"), std::string::npos) << err;
-    EXPECT_FALSE(fs::exists(path("a.fwc")));
+    EXPECT_EQ(err, "");
+    ASSERT_EQ(solve("b.glb", {"--resume", path("a.fwc")}).first, 0);
+    ASSERT_EQ(solve("c.glb", {"--error", "10%"}).first, 0);
+    EXPECT_EQ(read("b.glb"), read("c.glb"));
+    EXPECT_NE(read("a.glb"), read("c.glb"));
+}
+
+// With no time in between, one is kept after every wave; the last is that of the last level.
+TEST_F(Checkpoints, IntervalsAreKeptWithinLevels) {
+    ASSERT_EQ(
+        solve("a.glb", {"--error", "20%", "--checkpoint", path("a.fwc"), "--checkpoint-interval", "0"}).first,
+        0);
+    ASSERT_EQ(solve("b.glb", {"--error", "20%", "--checkpoint", path("b.fwc")}).first, 0);
+    EXPECT_EQ(read("a.glb"), read("b.glb"));
+    EXPECT_EQ(solve("a.glb", {"--checkpoint-interval", "-1"}).first, static_cast<int>(ExitCode::usage));
 }
 
 // A file that cannot grow further stands for a full disk.
@@ -131,8 +146,11 @@ TEST_F(Checkpoints, AFullDiskIsAWarningAndTheSolveGoesOn) {
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     testing::internal::CaptureStderr();
     solve::Callbacks callbacks;
-    callbacks.levelDone = [&] {
-        checkpointing.keep(*solver);
+    callbacks.resumable = [&](solve::Moment moment) {
+        if (moment != solve::Moment::level) {
+            return;
+        }
+        checkpointing.keep(*solver, moment);
         if (first.empty()) {
             first = read("a.fwc");
             rlimit tight = before;

@@ -35,7 +35,7 @@ inline solve::Options withClusterLinks() {
 
 /// Refines all links to a threshold in lux.
 inline bool refine(Problem& problem, double threshold) {
-    return solve::refineLinks(problem, threshold, {});
+    return solve::refineLinks(problem, threshold, {}, {}).hasChanged;
 }
 
 /// Sweeps until a sweep moves less than `residual` of the power; returns their number, `most` if it never

@@ -138,8 +138,8 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
                                threads = arguments.solver.threads](const solve::Options& options) {
             return checkpointing->makeSolver(scene, options, threads);
         };
-        exhibit.solver.levelDone = [checkpointing](const solve::Solver& solver) {
-            checkpointing->keep(solver);
+        exhibit.solver.resumable = [checkpointing](const solve::Solver& solver, solve::Moment moment) {
+            checkpointing->keep(solver, moment);
         };
         if (!arguments.output.quiet) {
             for (const std::string& warning : shown.scene->warnings) {

@@ -13,8 +13,8 @@ SolveFunction solveWith(SolverSource source) {
             (*solver)->setOptions(options);
         }
         solve::Callbacks all = callbacks;
-        if (source.levelDone) {
-            all.levelDone = [&] { source.levelDone(**solver); };
+        if (source.resumable) {
+            all.resumable = [&](solve::Moment moment) { source.resumable(**solver, moment); };
         }
         return (*solver)->solve(all);
     };

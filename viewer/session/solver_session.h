@@ -17,10 +17,10 @@ namespace fluxwalk::session {
 /// Solves with the given options until done or stopped; called again to go on. Runs on the session's thread.
 using SolveFunction = std::function<solve::Outcome(const solve::Options&, const solve::Callbacks&)>;
 
-/// Where its Solver comes from, and who is told of each finished level (may be empty).
+/// Where its Solver comes from, and who is told when it could go on from its state (may be empty).
 struct SolverSource {
     std::function<std::unique_ptr<solve::Solver>(const solve::Options&)> make;
-    std::function<void(const solve::Solver&)> levelDone;
+    std::function<void(const solve::Solver&, solve::Moment)> resumable;
 };
 
 /// Makes its Solver on the first call and keeps it for the next ones.

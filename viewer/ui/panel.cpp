@@ -28,6 +28,19 @@ std::string describeFailure(const std::exception_ptr& failure) {
     }
 }
 
+std::string describeOutcome(solve::Outcome outcome) {
+    switch (outcome) {
+        case solve::Outcome::reachedTimeLimit:
+            return "Stopped at the time limit";
+        case solve::Outcome::reachedLinkLimit:
+            return "Stopped at the link limit";
+        case solve::Outcome::reachedMemoryLimit:
+            return "Stopped at the memory limit";
+        default:
+            return "Requested error reached";
+    }
+}
+
 std::string describePhase(const PanelInfo& info) {
     if (!info.session) {
         return "Lit file: shown as it was solved";
@@ -41,8 +54,7 @@ std::string describePhase(const PanelInfo& info) {
         case session::Phase::paused:
             return "Paused";
         case session::Phase::finished:
-            return info.session->outcome == solve::Outcome::reachedTimeLimit ? "Stopped at the time limit"
-                                                                             : "Requested error reached";
+            return describeOutcome(info.session->outcome);
         case session::Phase::stopped:
             return "Stopped";
         case session::Phase::failed:

@@ -1,0 +1,153 @@
+#include "core/solve/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/solve/audit.h"
+#include "core/solve/coarsen.h"
+#include "core/solve/first_guess.h"
+#include "core/solve/sweep.h"
+
+namespace fluxwalk::solve {
+
+namespace {
+
+/// Even a stopped solve sweeps this often over its last links, so that what it keeps is lit.
+constexpr int kSweepsAfterStop = 2;
+constexpr double kPublishInterval = 0.1;  ///< seconds
+/// Of the time, snapshots take no more than about one part in this many.
+constexpr double kPublishShare = 8.0;
+/// The first picture waits for its third sweep or so: a millisecond more, and interreflection is there.
+constexpr double kFirstResidual = 0.04;
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Run::Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, LoopState& loop,
+         std::uint64_t& sequence)
+    : problem_(problem),
+      display_(display),
+      callbacks_(callbacks),
+      loop_(loop),
+      sequence_(sequence),
+      before_(problem.statistics.times.total) {}
+
+void Run::takeNewOptions() {
+    const auto changed = callbacks_.newOptions ? callbacks_.newOptions() : std::nullopt;
+    if (!changed) {
+        return;
+    }
+    const Options built = problem_.options;
+    loop_.hasChanged = true;
+    problem_.options = *changed;
+    problem_.options.seed = built.seed;
+    problem_.options.clusters = built.clusters;
+    problem_.options.rays = built.rays;
+    if (problem_.hierarchy.patches().size() > kMaxPairedPatches) {
+        problem_.options.clusterLinks = ClusterLinks::on;
+    }
+    isTurned_ = isTurned_ || asksForCoarser(problem_);
+}
+
+void Run::tell(Moment moment) {
+    if (callbacks_.resumable && isResumable_) {
+        problem_.statistics.times.total = seconds();
+        callbacks_.resumable(moment);
+    }
+}
+
+bool Run::isStopped() {
+    if (isResumable_) {
+        takeNewOptions();
+    }
+    if (!isCut()) {
+        wasStopped_ = callbacks_.shouldStop && callbacks_.shouldStop();
+        const double limit = problem_.options.timeLimit;
+        isOutOfTime_ = limit > 0.0 && seconds() - loop_.secondsBefore > limit;
+        tell(isCut() ? Moment::stop : Moment::wave);
+    }
+    return isCut() || isTurned_;
+}
+
+bool Run::takeTurn() {
+    return std::exchange(isTurned_, false);
+}
+
+void Run::sweep(int most, double residual) {
+    Sweeper sweeper(problem_);
+    Statistics& statistics = problem_.statistics;
+    while (loop_.sweeps < most) {
+        statistics.residual = sweeper.sweep();
+        statistics.meanIrradiance = meanIrradiance(problem_.hierarchy);
+        ++loop_.sweeps;
+        if (statistics.residual <= residual) {
+            loop_.sweeps = most;
+        }
+        if (loop_.sweeps >= kSweepsAfterStop && isStopped()) {
+            break;
+        }
+        publish(false);
+    }
+}
+
+void Run::audit(std::size_t rays) {
+    const StageTimer timer(problem_.statistics.times.audit);
+    problem_.statistics.audit = auditEnergy(problem_, rays);
+}
+
+void Run::publish(bool isFinished) {
+    problem_.statistics.times.total = seconds();
+    const double wait = std::max(kPublishInterval, kPublishShare * publishTime_);
+    const bool isTooEarly =
+        sequence_ > 0 ? secondsSince(published_) < wait : problem_.statistics.residual > kFirstResidual;
+    if (!callbacks_.publish || (!isFinished && isTooEarly)) {
+        return;
+    }
+    const Clock::time_point start = Clock::now();
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->sequence = ++sequence_;
+    snapshot->meshes = display_.refresh();
+    snapshot->statistics = problem_.statistics;
+    snapshot->finished = isFinished;
+    callbacks_.publish(std::move(snapshot));
+    published_ = Clock::now();
+    publishTime_ = secondsSince(start);
+}
+
+void Run::report(const char* stage) {
+    if (!callbacks_.progress) {
+        return;
+    }
+    // Errors fall by about a constant factor a level: progress is the part of the levels that are done.
+    const double error = problem_.statistics.estimatedError;
+    const double wanted = std::max(1e-6, problem_.options.error);
+    const double share = error > 0.0 ? std::log(1.0 / error) / std::log(1.0 / std::min(0.5, wanted)) : 0.0;
+    callbacks_.progress(std::clamp(share, 0.0, 1.0), stage);
+}
+
+void Run::finishLevel() {
+    tell(Moment::level);
+}
+
+void Run::beginLastSweeps() {
+    isResumable_ = false;
+    loop_.sweeps = 0;
+}
+
+double Run::seconds() const {
+    return before_ + secondsSince(start_);
+}
+
+Outcome Run::outcome(Limit limit) const {
+    return wasStopped_              ? Outcome::stopped
+           : isOutOfTime_           ? Outcome::reachedTimeLimit
+           : limit == Limit::links  ? Outcome::reachedLinkLimit
+           : limit == Limit::memory ? Outcome::reachedMemoryLimit
+                                    : Outcome::reachedError;
+}
+
+}  // namespace fluxwalk::solve

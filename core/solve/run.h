@@ -1,0 +1,59 @@
+#pragma once
+
+#include <chrono>
+
+#include "core/solve/checkpoint.h"
+#include "core/solve/display_update.h"
+#include "core/solve/solver.h"
+
+namespace fluxwalk::solve {
+
+/// One call of Solver::solve: its clock, its stops and whom it tells.
+class Run {
+  public:
+    Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, LoopState& loop,
+        std::uint64_t& sequence);
+
+    /// Asked between waves and sweeps: takes new options over, tells that the solve could go on from here,
+    /// and returns whether what is at work shall end.
+    bool isStopped();
+    /// Whether a stop or the time limit has been seen.
+    bool isCut() const { return wasStopped_ || isOutOfTime_; }
+    /// Whether the level at hand was left for what new options ask for; forgets it.
+    bool takeTurn();
+
+    /// Sweeps, `most` times in all, until one changes no more than `residual` of the power.
+    void sweep(int most, double residual);
+    void audit(std::size_t rays);
+    void publish(bool isFinished);
+    void report(const char* stage);
+    /// Tells of a finished level.
+    void finishLevel();
+    /// From here on new options wait, and nothing is told any more that the solve could go on from.
+    void beginLastSweeps();
+
+    double seconds() const;
+    Outcome outcome(Limit limit) const;
+
+  private:
+    void takeNewOptions();
+    void tell(Moment moment);
+
+    using Clock = std::chrono::steady_clock;
+
+    Problem& problem_;
+    DisplayUpdate& display_;
+    const Callbacks& callbacks_;
+    LoopState& loop_;
+    std::uint64_t& sequence_;
+    double before_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point published_{};
+    double publishTime_ = 0.0;  ///< seconds that the last snapshot took
+    bool wasStopped_ = false;
+    bool isOutOfTime_ = false;
+    bool isTurned_ = false;
+    bool isResumable_ = true;
+};
+
+}  // namespace fluxwalk::solve
