@@ -249,17 +249,20 @@ void Hierarchy::tabulatePatches() {
 
 void Hierarchy::sumAreas() {
     areaBefore_.assign(patches_.size() + 1, 0.0);
+    std::vector<double> ownBefore(patches_.size() + 1, 0.0);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-        patchTable_.area[i] = shape(patches_[i]).sampledArea();
-        areaBefore_[i + 1] = areaBefore_[i] + static_cast<double>(shape(patches_[i]).sampledArea());
+        const Shape& patch = shape(patches_[i]);
+        patchTable_.area[i] = patch.ownArea();
+        areaBefore_[i + 1] = areaBefore_[i] + static_cast<double>(patch.sampledArea());
+        ownBefore[i + 1] = ownBefore[i] + static_cast<double>(patch.ownArea());
     }
     for (std::size_t i = patchRange_.size(); i-- > 0;) {
         if (kind_[i] == NodeKind::cluster) {
             const auto [begin, end] = patchRange_[i];
-            const double exposed = areaBefore_[end] - areaBefore_[begin];
             Shape& shape = shape_[i];
-            shape.exposed =
-                shape.area > 0.0f ? static_cast<float>(exposed / static_cast<double>(shape.area)) : 0.0f;
+            shape.exposed = shape.area > 0.0f ? static_cast<float>((ownBefore[end] - ownBefore[begin]) /
+                                                                   static_cast<double>(shape.area))
+                                              : 0.0f;
         }
     }
 }
@@ -274,7 +277,7 @@ void Hierarchy::pullClusters() {
         float weight = 0.0f;
         for (unsigned c = 0; c < 2; ++c) {
             const std::size_t k = index(firstChild_[i]) + c;
-            const float area = shape_[k].sampledArea();
+            const float area = shape_[k].ownArea();
             light.radiosity += area * light_[k].radiosity;
             light.irradiance += area * light_[k].irradiance;
             weight += area;
@@ -287,7 +290,7 @@ void Hierarchy::pullClusters() {
         light.irradiance /= weight;
         for (unsigned c = 0; c < 2; ++c) {
             const std::size_t k = index(firstChild_[i]) + c;
-            if (shape_[k].sampledArea() > 0.0f) {
+            if (shape_[k].ownArea() > 0.0f) {
                 const float off = std::abs(base::channelMean(light_[k].radiosity - light.radiosity));
                 light.residual = std::max(light.residual, off + light_[k].range());
             }

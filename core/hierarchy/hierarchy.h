@@ -58,12 +58,16 @@ struct Shape {
     std::array<Vec3, 4> corners{};
 
     float exposedArea() const { return area * exposed; }
-    /// Area of the exposed cells, on which light is sampled (clusters: sum over their patches). Somewhat more
+    /// Area of the exposed cells, on which light is sampled (clusters: the exposed area). Somewhat more
     /// than the exposed area, as rays find what is hidden in them; unlike that, refinement does not change
     /// it.
     float sampledArea() const {
         return cornerCount == 0 ? exposedArea()
                                 : area * static_cast<float>(std::popcount(exposedCells)) / 16.0f;
+    }
+    /// As `exposedArea`, but by an element's own places alone: refinement does not change it.
+    float ownArea() const {
+        return cornerCount == 0 ? exposedArea() : area * static_cast<float>(exposedPlaces) / kPlaces;
     }
     /// Of the exposed area, the part that the parent's links reach.
     float partOfParent() const {

@@ -11,7 +11,7 @@ struct PatchTable {
     std::array<std::vector<float>, 3> center;  ///< x, y and z, m
     std::array<std::vector<float>, 3> axis;    ///< mean normals
     std::vector<float> spread;                 ///< half angle of the cone of normals, at most 1 radian
-    std::vector<float> area;                   ///< sampled (Shape::sampledArea), m2
+    std::vector<float> area;                   ///< exposed (Shape::ownArea), m2
 };
 
 }  // namespace fluxwalk::hierarchy

@@ -100,7 +100,7 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
             sum += weight * Vec3d(radiosity_[0][i + k], radiosity_[1][i + k], radiosity_[2][i + k]);
         }
     }
-    const float all = view.shares > 0.0f ? view.shares : h.shape(id).sampledArea();
+    const float all = view.shares > 0.0f ? view.shares : h.shape(id).ownArea();
     return all > 0.0f ? Rgb(sum / static_cast<double>(all)) : Rgb(0.0f);
 }
 
@@ -109,12 +109,13 @@ ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t lin
     const Link& l = problem_.links.links[link];
     const NodeId source = otherEnd(l, cluster);
     const View& view = viewFrom(link, cluster);
-    const Rgb power = l.transfer() * shownBy(link, source);
+    const Rgb shown = shownBy(link, source);
+    const Rgb power = l.transfer() * shown;
     if (view.shares > 0.0f) {
-        return {view.other, false, power / view.shares};
+        return {view.other, false, power / view.shares, shown};
     }
-    const float area = h.shape(cluster).sampledArea();
-    return {{}, true, area > 0.0f ? power / area : Rgb(0.0f)};
+    const float area = h.shape(cluster).ownArea();
+    return {{}, true, area > 0.0f ? power / area : Rgb(0.0f), shown};
 }
 
 void ClusterExchange::gather(std::size_t begin, std::size_t end, std::span<Rgb> out) {
@@ -164,18 +165,13 @@ void ClusterExchange::share(std::size_t begin, std::size_t end, std::span<Rgb> o
                     transport::computeShares(h.patchTable(), i, in.source, std::span(shares.data(), count));
                 }
                 for (std::size_t p = 0; p < count; ++p) {
-                    sums[i - begin + p] += Vec3d(shares[p] * in.flux);
+                    sums[i - begin + p] += Vec3d(glm::min(shares[p] * in.flux, in.most));
                 }
             }
         }
     }
     for (std::size_t i = 0; i < end - begin; ++i) {
-        const hierarchy::Shape& shape = h.shape(h.patches()[begin + i]);
-        // Shares are of the sampled area; what lies hidden in it takes none.
-        const float exposed = shape.exposedArea();
-        out[i] = exposed > 0.0f
-                     ? Rgb(sums[i]) * (scaleOf(h.patches()[begin + i]) * shape.sampledArea() / exposed)
-                     : Rgb(0.0f);
+        out[i] = Rgb(sums[i]) * scaleOf(h.patches()[begin + i]);
     }
 }
 

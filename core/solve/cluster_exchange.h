@@ -33,6 +33,7 @@ class ClusterExchange {
         transport::Ball source;
         bool isEven = false;  ///< all patches get the same
         Rgb flux{0.0f};
+        Rgb most{0.0f};  ///< what the source would send into a whole hemisphere, lux
     };
 
     /// How a cluster at one end of a link sees the other end.
