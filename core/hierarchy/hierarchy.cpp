@@ -109,7 +109,7 @@ Hierarchy::Hierarchy(const scene::Scene& scene, const rays::RayScene& rays, cons
     leafCount_ = patches_.size();
     shapePatches(executor);
     shapeClusters();
-    assignRooms();
+    markClusters();
     tabulatePatches();
 }
 
@@ -352,9 +352,11 @@ void Hierarchy::shapeClusters() {
     }
 }
 
-void Hierarchy::assignRooms() {
+void Hierarchy::markClusters() {
     room_.assign(patchRange_.size(), kNoRoom);
+    emitting_.assign(patchRange_.size(), 0);
     for (const NodeId id : patches_) {
+        emitting_[index(id)] = light(id).emission == Rgb(0.0f) ? 2 : 1;
         room_[index(id)] =
             reached_.rooms[static_cast<std::size_t>(object_[index(id)]) * 2 + (patchSide_[index(id)] & 1u)];
     }
@@ -363,6 +365,7 @@ void Hierarchy::assignRooms() {
         if (kind_[i] == NodeKind::cluster) {
             const std::size_t child = index(firstChild_[i]);
             room_[i] = room_[child] == room_[child + 1] ? room_[child] : kNoRoom;
+            emitting_[i] = emitting_[child] | emitting_[child + 1];
         }
     }
 }

@@ -145,13 +145,15 @@ class Hierarchy {
     /// Index into patches() of the first of them.
     std::uint32_t firstPatchBelow(NodeId id) const { return patchRange_[index(id)][0]; }
     const PatchTable& patchTable() const { return patchTable_; }
-    /// Exposed area in m2 of the first `count` patches.
+    /// Sampled area in m2 of the first `count` patches.
     double sampledAreaBefore(std::size_t count) const { return areaBefore_[count]; }
     /// Box about a cluster or patch.
     const Extent& extent(NodeId id) const { return extent_[index(id)]; }
     /// Whether walks of light joined all that is below an element or cluster (ReachedSides::rooms): otherwise
     /// closed walls may lie between them.
     bool isInOneRoom(NodeId id) const { return kind(id) != NodeKind::cluster || room_[index(id)] != kNoRoom; }
+    /// Whether a cluster has both patches that emit and others: light is not shared among such unlike ones.
+    bool isPartlyEmitting(NodeId id) const { return emitting_[base::index(id)] == 3; }
     /// Light sources without area, and the sky.
     std::span<const NodeId> sources() const { return sources_; }
     /// Patch node of a patch and side, or NodeId::none where light does not reach it.
@@ -184,7 +186,7 @@ class Hierarchy {
     void refreshExposure(NodeId id);
     void shapePatches(const base::Executor& executor);
     void shapeClusters();
-    void assignRooms();
+    void markClusters();
     void orderPatches();
     void tabulatePatches();
     void sumAreas();
@@ -213,7 +215,8 @@ class Hierarchy {
     PatchTable patchTable_;
     std::vector<Extent> extent_;  ///< of clusters and patches
     static constexpr std::uint32_t kNoRoom = 0xffffffffu;
-    std::vector<std::uint32_t> room_;  ///< of clusters and patches; kNoRoom: of several
+    std::vector<std::uint8_t> emitting_;  ///< of clusters and patches: 1 emitting, 2 others, 3 both
+    std::vector<std::uint32_t> room_;     ///< of clusters and patches; kNoRoom: of several
     std::vector<NodeId> sources_;
     std::vector<std::array<NodeId, 2>> patchNodes_;  ///< by shaft item: front, back
     NodeId root_ = NodeId::none;

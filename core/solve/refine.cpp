@@ -286,8 +286,13 @@ class Refinement {
 
     bool isMinorPair(NodeId a, NodeId b) const { return boundExchange(a, b) <= threshold_; }
 
-    // Light sources without area stay with single patches, and nothing is shared through a closed wall.
+    // Light sources without area stay with single patches, and nothing is shared through a closed wall or by
+    // the two sides of a lamp.
     bool mayLinkClusters(NodeId a, NodeId b) const {
+        if ((isCluster(a) && hierarchy_.isPartlyEmitting(a)) ||
+            (isCluster(b) && hierarchy_.isPartlyEmitting(b))) {
+            return false;
+        }
         return problem_.takesClusterLinks() && hierarchy_.shape(a).area > 0.0f &&
                hierarchy_.shape(b).area > 0.0f && hierarchy_.isInOneRoom(a) && hierarchy_.isInOneRoom(b);
     }

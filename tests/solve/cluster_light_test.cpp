@@ -58,7 +58,7 @@ void expectSameLight(const std::function<scene::Scene()>& build, double error) {
         difference += d / 400.0;
         squares += d * d / 400.0;
     }
-    EXPECT_LT(std::abs(difference) / mean, .5 * error);
+    EXPECT_LT(std::abs(difference) / mean, .005);
     EXPECT_LT(std::sqrt(squares) / mean, error);
     testing::Test::RecordProperty("difference", std::to_string(difference / mean));
     testing::Test::RecordProperty("rms", std::to_string(std::sqrt(squares) / mean));
