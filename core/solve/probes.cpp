@@ -72,16 +72,21 @@ double relativeRmsOffLamps(const std::vector<Rgb>& values, const std::vector<Rgb
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return sumOf(reference[a]) < sumOf(reference[b]); });
-    std::vector<Rgb> kept;
-    std::vector<Rgb> keptReference;
-    double sum = 0.0;
-    for (const std::size_t i : order) {
-        const double own = sumOf(reference[i]);
-        // The median belongs to what is lit, whatever lies below it in the dark.
-        if (2 * kept.size() > order.size() && own * static_cast<double>(kept.size()) > kLampward * sum) {
+    double rest = 0.0;
+    for (const Rgb& e : reference) {
+        rest += sumOf(e);
+    }
+    while (order.size() > 1) {
+        const double brightest = sumOf(reference[order.back()]);
+        rest -= brightest;
+        if (brightest * static_cast<double>(order.size() - 1) <= kLampward * rest) {
             break;
         }
-        sum += own;
+        order.pop_back();
+    }
+    std::vector<Rgb> kept;
+    std::vector<Rgb> keptReference;
+    for (const std::size_t i : order) {
         kept.push_back(values[i]);
         keptReference.push_back(reference[i]);
     }

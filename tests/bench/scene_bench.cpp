@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -29,8 +30,15 @@ struct Arguments {
     std::uint64_t paths = 200'000;
 };
 
+// Scenes with numbers in their names have a colon, which not all file systems take.
+std::string fileNameOf(std::string scene) {
+    std::replace(scene.begin(), scene.end(), ':', '-');
+    return scene;
+}
+
 std::filesystem::path defaultReference(const std::string& scene) {
-    return std::filesystem::path(FLUXWALK_SOURCE_DIR) / "tests/bench/reference" / (scene + ".csv");
+    return std::filesystem::path(FLUXWALK_SOURCE_DIR) / "tests/bench/reference" /
+           (fileNameOf(scene) + ".csv");
 }
 
 scene::Scene sceneOf(const std::string& name) {
@@ -96,7 +104,7 @@ void runScene(const Arguments& arguments) {
     std::fputs(formatReport(report, targets).c_str(), stdout);
     const std::filesystem::path json =
         arguments.json.empty()
-            ? std::filesystem::path(FLUXWALK_SOURCE_DIR) / "build/bench" / (arguments.scene + ".json")
+            ? std::filesystem::path(FLUXWALK_SOURCE_DIR) / "build/bench" / (fileNameOf(arguments.scene) + ".json")
             : arguments.json;
     if (json.has_parent_path()) {
         std::filesystem::create_directories(json.parent_path());
