@@ -109,7 +109,8 @@ ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t lin
     const Link& l = problem_.links.links[link];
     const NodeId source = otherEnd(l, cluster);
     const View& view = viewFrom(link, cluster);
-    const Rgb shown = shownBy(link, source);
+    // Linear ends may show a little less than nothing.
+    const Rgb shown = glm::max(shownBy(link, source), Rgb(0.0f));
     const Rgb power = l.transfer() * shown;
     if (view.shares > 0.0f) {
         return {view.other, false, power / view.shares, shown};
