@@ -25,8 +25,9 @@ std::vector<Rgb> gatherProbes(const Problem& problem, const std::vector<Probe>& 
 /// RMS of the difference over probes and channels, as a part of the mean of `reference`.
 double relativeRms(const std::vector<Rgb>& values, const std::vector<Rgb>& reference);
 
-/// The same without probes where `reference` is more than ten times the mean of all others that are left: a point on
-/// the socket of a lamp may have a hundred times the light of a room, and its mean would hide all else.
+/// The same without probes where `reference` is more than ten times the mean of all others that are left: a
+/// point on the socket of a lamp may have a hundred times the light of a room, and its mean would hide all
+/// else.
 double relativeRmsOffLamps(const std::vector<Rgb>& values, const std::vector<Rgb>& reference);
 
 }  // namespace fluxwalk::solve

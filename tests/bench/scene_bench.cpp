@@ -102,10 +102,10 @@ void runScene(const Arguments& arguments) {
 
     const Targets targets;
     std::fputs(formatReport(report, targets).c_str(), stdout);
-    const std::filesystem::path json =
-        arguments.json.empty()
-            ? std::filesystem::path(FLUXWALK_SOURCE_DIR) / "build/bench" / (fileNameOf(arguments.scene) + ".json")
-            : arguments.json;
+    const std::filesystem::path json = arguments.json.empty()
+                                           ? std::filesystem::path(FLUXWALK_SOURCE_DIR) / "build/bench" /
+                                                 (fileNameOf(arguments.scene) + ".json")
+                                           : arguments.json;
     if (json.has_parent_path()) {
         std::filesystem::create_directories(json.parent_path());
     }

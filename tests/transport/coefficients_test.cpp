@@ -1,8 +1,8 @@
 #include "core/transport/coefficients.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "core/scene/builders.h"
 #include "core/surface/sphere.h"
@@ -136,8 +136,7 @@ TEST(Coefficients, sendNoMoreThanWhatIsExposed) {
     std::array<std::vector<NodeId>, 2> ends;
     for (std::uint32_t i = 0; i < built.tree.nodeCount(); ++i) {
         const NodeId id{i};
-        if (built.tree.kind(id) == hierarchy::NodeKind::element && built.tree.isLeaf(id) &&
-            isAtContact(id)) {
+        if (built.tree.kind(id) == hierarchy::NodeKind::element && built.tree.isLeaf(id) && isAtContact(id)) {
             ends[built.tree.name(id).object - disk].push_back(id);
         }
     }
