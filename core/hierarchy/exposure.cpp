@@ -90,7 +90,8 @@ Exposure findExposure(const rays::RayScene& rays, const ReachedSides& reached,
     const std::array<double, 2> lengths{cellSize, 2.0 * cellSize};
     const auto isClear = [&](const Place& place) { return place.clearance >= kNarrow * lengths[1]; };
     const auto middleOf = [](unsigned cell) {
-        return base::Vec2d(0.125 + 0.25 * (cell % 4), 0.125 + 0.25 * (cell / 4));
+        const unsigned row = cell / 4;
+        return base::Vec2d(0.125 + 0.25 * (cell % 4), 0.125 + 0.25 * row);
     };
     std::array<Place, 16> middles;
     for (unsigned cell = 0; cell < 16; ++cell) {
