@@ -190,8 +190,7 @@ double computeTouchingCoupling(const hierarchy::Hierarchy& hierarchy, NodeId idA
         return std::min(fromA, fromB);
     }
     const ViewWeights weights = weighViews(a, b, true);
-    const double coupling = weights.atA * fromA + weights.atB * fromB;
-    return coupling;
+    return weights.atA * fromA + weights.atB * fromB;
 }
 
 PairFactor computeSelfFactor(const ElementPoints& element, const SelfGrid& grid) {
