@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/hierarchy/explorer.h"
 #include "core/surface/region.h"
 
 namespace fluxwalk::hierarchy {
@@ -42,30 +43,26 @@ Vec2d pointAt(std::size_t i, const Vec2d& shift) {
 // Whether a walk from a point on a surface comes to a side that light does not reach, or leaves a scene that
 // no light leaves: then all of its way is dark. Where two solids touch, a ray inside of one may report the
 // other's face, which is reached elsewhere; so the walk goes on from there.
-bool isDark(const scene::Scene& scene, const rays::RayScene& rays, const ReachedSides& reached,
-            Vec3d position, Vec3d normal, unsigned hops, base::RandomStream& random) {
+bool isDark(const Explorer& explorer, const ReachedSides& reached, Stand at, unsigned hops,
+            base::RandomStream& random) {
     for (unsigned hop = 0; hop < hops; ++hop) {
         // Tilted at random, so that no ray runs along an edge of what it is to meet.
         const Vec3d direction =
-            normal + kTilt * Vec3d(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5);
-        const auto hit = rays.closest(rays.halfLine(position, normal, direction));
-        if (!hit) {
+            at.normal + kTilt * Vec3d(random.next() - 0.5, random.next() - 0.5, random.next() - 0.5);
+        const Explorer::Step step = explorer.step(at, direction);
+        if (step.escaped) {
             return !reached.isOpen;
         }
-        if (!reached.isReached(base::index(hit->object), hit->back)) {
+        if (!reached.isReached(step.object, step.back)) {
             return true;
         }
-        const surface::Surface& surface = *scene.objects[base::index(hit->object)].surface;
-        const Vec3d met = position + static_cast<double>(hit->t) * direction;
-        const surface::SurfacePoint p = surface.evaluate(hit->patch, surface.locate(hit->patch, met));
-        position = p.position;
-        normal = hit->back ? -p.normal : p.normal;
+        at = step.at;
     }
     return false;
 }
 
-bool isBuried(const scene::Scene& scene, const rays::RayScene& rays, const ReachedSides& reached,
-              const surface::Surface& surface, std::uint32_t patch, bool back, std::uint64_t key) {
+bool isBuried(const Explorer& explorer, const ReachedSides& reached, const surface::Surface& surface,
+              std::uint32_t patch, bool back, std::uint64_t key) {
     const surface::Region whole = surface::wholePatch(surface.domain(patch));
     const auto count = static_cast<std::size_t>(std::clamp(surface.area(patch, whole) / kAreaPerPoint,
                                                            static_cast<double>(kFewestPoints),
@@ -75,7 +72,7 @@ bool isBuried(const scene::Scene& scene, const rays::RayScene& rays, const Reach
     for (std::size_t i = 0; i < count; ++i) {
         const surface::SurfacePoint p =
             surface.evaluate(patch, surface::mapToRegion(whole, pointAt(i, shift)).uv);
-        if (!isDark(scene, rays, reached, p.position, back ? -p.normal : p.normal,
+        if (!isDark(explorer, reached, {p.position, back ? -p.normal : p.normal},
                     i == 0 ? kFirstHops : kMoreHops, random)) {
             return false;
         }
@@ -88,6 +85,7 @@ bool isBuried(const scene::Scene& scene, const rays::RayScene& rays, const Reach
 std::vector<std::uint8_t> findBuriedPatches(const scene::Scene& scene, const rays::RayScene& rays,
                                             const base::Executor& executor, const ReachedSides& reached,
                                             std::uint64_t seed) {
+    const Explorer explorer(scene, rays);
     std::vector<std::uint8_t> buried(reached.firstPatch.back(), 0);
     executor.forRange(scene.objects.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o) {
@@ -96,7 +94,7 @@ std::vector<std::uint8_t> findBuriedPatches(const scene::Scene& scene, const ray
                 const std::size_t item = reached.firstPatch[o] + patch;
                 for (const bool back : {false, true}) {
                     if (reached.isReached(static_cast<std::uint32_t>(o), back) &&
-                        isBuried(scene, rays, reached, surface, patch, back,
+                        isBuried(explorer, reached, surface, patch, back,
                                  base::combine(seed, 2 * item + (back ? 1 : 0)))) {
                         buried[item] |= back ? 2 : 1;
                     }

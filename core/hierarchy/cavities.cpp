@@ -1,10 +1,10 @@
 #include "core/hierarchy/cavities.h"
 
 #include <array>
-#include <numeric>
 
 #include "core/base/random.h"
 #include "core/hierarchy/explorer.h"
+#include "core/hierarchy/joined_sets.h"
 #include "core/surface/region.h"
 
 namespace fluxwalk::hierarchy {
@@ -19,25 +19,9 @@ struct Round {
 };
 constexpr std::array<Round, 4> kRounds{{{1, 4}, {3, 16}, {32, 16}, {64, 16}}};
 
-class Sets {
-  public:
-    explicit Sets(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0u); }
-
-    std::uint32_t top(std::uint32_t i) {
-        while (above_[i] != i) {
-            i = above_[i] = above_[above_[i]];
-        }
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { above_[top(a)] = top(b); }
-
-  private:
-    std::vector<std::uint32_t> above_;
-};
-
-/// A side of a patch: twice the patch's number, one more for its back.
+/// What walks from one side of a patch found.
 struct Walked {
-    std::vector<std::uint32_t> met;
+    std::vector<std::uint32_t> met;  ///< sides: twice the patch's number, one more for its back
     bool sawLight = false;
 };
 
@@ -57,7 +41,7 @@ std::vector<std::uint8_t> findCavities(const scene::Scene& scene, const rays::Ra
     const auto patchOf = [&](std::size_t item) {
         return static_cast<std::uint32_t>(item - reached.firstPatch[objectOf[item]]);
     };
-    Sets sets(2 * patches);
+    JoinedSets sets(2 * patches);
     std::vector<std::uint8_t> isLit(2 * patches, 0);
     std::vector<std::uint32_t> open;  // sides not known to be lit
     for (std::uint32_t side = 0; side < 2 * patches; ++side) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <numeric>
 #include <span>
 
 #include "core/base/photometry.h"
@@ -13,6 +12,7 @@
 #include "core/hierarchy/cavities.h"
 #include "core/hierarchy/closed_mesh.h"
 #include "core/hierarchy/explorer.h"
+#include "core/hierarchy/joined_sets.h"
 #include "core/rays/spatial_tree.h"
 #include "core/rays/tree_builder.h"
 #include "core/surface/region.h"
@@ -104,24 +104,17 @@ bool isLit(const scene::Scene& scene, const Explorer& explorer, std::uint32_t ob
 // Sides that steps join, directly or through others, get the same number.
 std::vector<std::uint32_t> findRooms(std::size_t sideCount, std::size_t sourceCount,
                                      std::initializer_list<std::span<const Found>> walks) {
-    std::vector<std::uint32_t> above(sideCount + sourceCount);
-    std::iota(above.begin(), above.end(), 0u);
-    const auto top = [&above](std::uint32_t i) {
-        while (above[i] != i) {
-            i = above[i] = above[above[i]];
-        }
-        return i;
-    };
+    JoinedSets sets(sideCount + sourceCount);
     for (const std::span<const Found> some : walks) {
         for (const Found& found : some) {
             for (const auto& [from, to] : found.steps) {
-                above[top(from)] = top(to);
+                sets.join(from, to);
             }
         }
     }
     std::vector<std::uint32_t> rooms(sideCount);
     for (std::uint32_t side = 0; side < sideCount; ++side) {
-        rooms[side] = top(side);
+        rooms[side] = sets.top(side);
     }
     return rooms;
 }
