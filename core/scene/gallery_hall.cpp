@@ -28,20 +28,21 @@ void addShell(Scene& scene, std::uint32_t white) {
     addSurface(scene, "far wall", petrol, std::make_shared<surface::Disk>(turnTo(-ahead, end), kRadius));
 }
 
-// The parts touch along circles at which patches end: the base's ring lies on the step and against the shaft.
+// The parts touch along circles at which patches end: the shaft stands on the crest of the base's ring, which
+// lies on the step.
 void addColumn(Scene& scene, double x, double z, std::uint32_t stone) {
     constexpr double kShaft = 0.16;
-    constexpr double kRing = 0.06;
-    constexpr double kStepRadius = 0.30;
+    constexpr double kRing = 0.07;
+    constexpr double kStepRadius = 0.27;
     constexpr double kStep = 0.12;
     constexpr double kAbacus = 0.10;
     constexpr double kAbacusHalf = 0.27;
     constexpr double kEchinus = 0.12;
     const double abacusUnder = kBeamUnder - kAbacus;
-    const double shaftFoot = kStep + kRing;
+    const double shaftFoot = kStep + 2.0 * kRing;
     addCylinder(scene, "column step", stone, {x, 0.0, z}, kStepRadius, kStep);
-    addDisk(scene, "column step top", stone, {x, kStep, z}, kStepRadius, kShaft + kRing);
-    addTorus(scene, "column base", stone, {x, shaftFoot, z}, kShaft + kRing, kRing);
+    addDisk(scene, "column step top", stone, {x, kStep, z}, kStepRadius, kShaft);
+    addTorus(scene, "column base", stone, {x, kStep + kRing, z}, kShaft, kRing);
     addCylinder(scene, "column shaft", stone, {x, shaftFoot, z}, kShaft, abacusUnder - kEchinus - shaftFoot);
     addCone(scene, "column echinus", stone, {x, abacusUnder - kEchinus, z}, kShaft, kAbacusHalf, kEchinus);
     addPolygons(scene, "column abacus", stone,
