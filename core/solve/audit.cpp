@@ -128,33 +128,38 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
             sums[base::index(h.patches()[i])] = arriving[i].g;
         }
     }
+    problem.executor.forRange(h.nodeCount(), 512, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const NodeId id{static_cast<std::uint32_t>(i)};
+            const float area = h.kind(id) == NodeKind::element ? h.shape(id).exposedArea() : 0.0f;
+            if (area <= 0.0f) {
+                continue;
+            }
+            double sum = 0.0;
+            Vec2 slope(0.0f);
+            for (const std::uint32_t l : problem.links.endingAt(id)) {
+                const hierarchy::Link& link = problem.links.links[l];
+                const bool isA = link.a == id;
+                const NodeId source = isA ? link.b : link.a;
+                const bool isCluster = h.kind(source) == NodeKind::cluster;
+                if (isCluster || h.kind(source) == NodeKind::element) {
+                    const float shown = isCluster       ? clusters.shownBy(l, source).g
+                                        : scale.empty() ? 1.0f
+                                                        : scale[base::index(source)];
+                    const float transfer = (scale.empty() ? 1.0f : scale[i]) * shown * link.transfer();
+                    sum += static_cast<double>(transfer);
+                    slope += transfer * (isA ? link.gradientA : link.gradientB).decode();
+                }
+            }
+            const double perArea = 1.0 / static_cast<double>(area);
+            sums[i] += static_cast<float>(sum * perArea);
+            slopes[i] = slope * static_cast<float>(perArea);
+        }
+    });
     // Parents stand before their children.
     for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
         const NodeId id{i};
-        if (h.kind(id) != NodeKind::element) {
-            continue;
-        }
-        double sum = 0.0;
-        Vec2 slope(0.0f);
-        for (const std::uint32_t l : problem.links.endingAt(id)) {
-            const hierarchy::Link& link = problem.links.links[l];
-            const bool isA = link.a == id;
-            const NodeId source = isA ? link.b : link.a;
-            const bool isCluster = h.kind(source) == NodeKind::cluster;
-            if (isCluster || h.kind(source) == NodeKind::element) {
-                const float shown = isCluster       ? clusters.shownBy(l, source).g
-                                    : scale.empty() ? 1.0f
-                                                    : scale[base::index(source)];
-                const float transfer = (scale.empty() ? 1.0f : scale[i]) * shown * link.transfer();
-                sum += static_cast<double>(transfer);
-                slope += transfer * (isA ? link.gradientA : link.gradientB).decode();
-            }
-        }
-        const double area = static_cast<double>(h.shape(id).exposedArea());
-        const double perArea = area > 0.0 ? 1.0 / area : 0.0;
-        sums[i] += static_cast<float>(sum * perArea);
-        slopes[i] += slope * static_cast<float>(perArea);
-        if (h.isLeaf(id)) {
+        if (h.kind(id) != NodeKind::element || h.isLeaf(id)) {
             continue;
         }
         // Children take over the linear function about their own mean, so that the means are kept.
@@ -171,8 +176,8 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
             const std::uint32_t child = base::index(h.child(id, c));
             const Vec2 offset = Vec2(frame.quarters[c][0], frame.quarters[c][1]) - middle;
             const float part = h.shape(h.child(id, c)).partOfParent();
-            sums[child] = part * (sums[i] + glm::dot(offset, slopes[i]));
-            slopes[child] = part * frame.quarterScale[c] * slopes[i];
+            sums[child] += part * (sums[i] + glm::dot(offset, slopes[i]));
+            slopes[child] += part * frame.quarterScale[c] * slopes[i];
         }
         sums[i] = 0.0f;
     }

@@ -42,4 +42,22 @@ std::vector<float> computeRowScaling(const Problem& problem) {
     return scale;
 }
 
+std::vector<float> limitRows(const Problem& problem) {
+    // Sums that errors of factors alone make are left alone.
+    constexpr float kTolerated = 1.05f;
+    constexpr float kMostReflected = 0.98f;
+    const hierarchy::Hierarchy& h = problem.hierarchy;
+    const std::vector<float> sums = computeRowSums(problem, problem.rowScale);
+    std::vector<float> kept;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const Rgb& reflectance = h.light(NodeId{static_cast<std::uint32_t>(i)}).reflectance;
+        const float largest = std::max({reflectance.r, reflectance.g, reflectance.b});
+        if (sums[i] > kTolerated && largest * sums[i] > kMostReflected) {
+            kept.resize(h.nodeCount(), 1.0f);
+            kept[i] = std::max(kTolerated, kMostReflected / largest) / sums[i];
+        }
+    }
+    return kept;
+}
+
 }  // namespace fluxwalk::solve

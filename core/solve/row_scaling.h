@@ -12,4 +12,9 @@ inline constexpr float kMaxRowScaling = 0.05f;
 /// (ALGORITHMS 1.7).
 std::vector<float> computeRowScaling(const Problem& problem);
 
+/// Part of what it gathers that each leaf keeps, so that light cannot grow without end: where factors sum to
+/// so much more than 1 that the leaf would send on more than it could have got (surfaces of a model that lie
+/// closer upon each other than rays can tell). By node; empty where all keep everything.
+std::vector<float> limitRows(const Problem& problem);
+
 }  // namespace fluxwalk::solve

@@ -6,6 +6,7 @@
 
 #include "core/base/photometry.h"
 #include "core/hierarchy/local_frame.h"
+#include "core/solve/row_scaling.h"
 
 namespace fluxwalk::solve {
 
@@ -20,7 +21,8 @@ constexpr std::size_t kMaxBlocks = 64;
 
 }  // namespace
 
-Sweeper::Sweeper(Problem& problem) : problem_(problem), clusters_(problem, problem.rowScale) {
+Sweeper::Sweeper(Problem& problem)
+    : problem_(problem), clusters_(problem, problem.rowScale), kept_(limitRows(problem)) {
     const hierarchy::Hierarchy& h = problem.hierarchy;
     order_.reserve(h.nodeCount());
     std::vector<NodeId> stack;
@@ -170,6 +172,11 @@ void Sweeper::pushPull(const Block& block, double& change, double& power) {
             own.t += from.t;
         }
         if (h.isLeaf(id)) {
+            if (!kept_.empty()) {
+                own.mean *= kept_[base::index(id)];
+                own.s *= kept_[base::index(id)];
+                own.t *= kept_[base::index(id)];
+            }
             // Limited linear parts can still add up to a little less than nothing.
             h.light(id).irradiance = glm::max(own.mean, Rgb(0.0f));
         }

@@ -42,6 +42,7 @@ class Sweeper {
 
     Problem& problem_;
     ClusterExchange clusters_;
+    std::vector<float> kept_;        ///< limitRows()
     std::vector<Rgb> fromClusters_;  ///< by patch of the block at hand
     std::vector<LinearIrradiance>
         gathered_;               ///< by node: through its own links, then with that of all ancestors

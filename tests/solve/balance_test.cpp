@@ -84,4 +84,33 @@ TEST(Balance, rowSumsAreTransported) {
     EXPECT_GT(inherited, 100u);
 }
 
+// Factors that sum to half as much again, as where surfaces lie closer upon each other than rays can tell:
+// walls that reflect .8 would send on 1.2 times what they got, and light would grow without end.
+TEST(Balance, rowsFarAboveOneDoNotFeedThemselves) {
+    solve::Options options;
+    options.clusterLinks = solve::ClusterLinks::off;
+    options.minArea = .2;
+    const auto problem = test::makeProblem(scene::buildCie58(.8f), options);
+    test::refine(*problem, 1e-9);
+    EXPECT_TRUE(solve::limitRows(*problem).empty());
+    const auto ends = [&](const hierarchy::Link& link) {
+        return problem->hierarchy.kind(link.b) == hierarchy::NodeKind::element;
+    };
+    for (hierarchy::Link& link : problem->links.links) {
+        link.coupling *= ends(link) ? 1.5f : 1.0f;
+    }
+    const std::vector<float> kept = solve::limitRows(*problem);
+    const std::vector<float> sums = solve::computeRowSums(*problem, {});
+    ASSERT_EQ(kept.size(), problem->hierarchy.nodeCount());
+    for (const base::NodeId id : test::leavesOf(problem->hierarchy)) {
+        EXPECT_NEAR(kept[base::index(id)] * sums[base::index(id)], .98f / .8f, 1e-5f);
+    }
+    EXPECT_LT(test::converge(*problem, 1e-4), 1000);
+    double largest = 0.0;
+    for (const base::NodeId id : test::leavesOf(problem->hierarchy)) {
+        largest = std::max(largest, static_cast<double>(problem->hierarchy.light(id).radiosity.g));
+    }
+    EXPECT_LT(largest, 1e6);
+}
+
 }  // namespace fluxwalk
