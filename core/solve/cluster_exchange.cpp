@@ -12,8 +12,7 @@ using hierarchy::Hierarchy;
 using hierarchy::Link;
 using hierarchy::NodeKind;
 
-/// Patches that are taken at once.
-constexpr std::size_t kRun = 64;
+using transport::kPatchRun;
 
 NodeId otherEnd(const Link& link, NodeId id) {
     return link.a == id ? link.b : link.a;
@@ -87,21 +86,21 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
     const hierarchy::PatchTable& table = h.patchTable();
     const std::size_t first = h.firstPatchBelow(id);
     const std::size_t end = first + h.patchesBelow(id).size();
-    std::array<float, kRun> shares;
-    shares.fill(1.0f);
-    Vec3d sum(0.0);
-    for (std::size_t i = first; i < end; i += kRun) {
-        const std::size_t count = std::min(kRun, end - i);
-        if (view.shares > 0.0f) {
-            transport::computeShares(table, i, view.other, std::span(shares.data(), count));
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto weight = static_cast<double>(table.area[i + k] * shares[k]);
-            sum += weight * Vec3d(radiosity_[0][i + k], radiosity_[1][i + k], radiosity_[2][i + k]);
-        }
-    }
     const float all = view.shares > 0.0f ? view.shares : h.shape(id).ownArea();
-    return all > 0.0f ? Rgb(sum / static_cast<double>(all)) : Rgb(0.0f);
+    if (!(all > 0.0f)) {
+        return Rgb(0.0f);
+    }
+    if (view.shares > 0.0f) {
+        return Rgb(transport::sumShared(table, first, end, view.other,
+                                        {radiosity_[0], radiosity_[1], radiosity_[2]}) /
+                   static_cast<double>(all));
+    }
+    Vec3d sum(0.0);
+    for (std::size_t i = first; i < end; ++i) {
+        sum +=
+            static_cast<double>(table.area[i]) * Vec3d(radiosity_[0][i], radiosity_[1][i], radiosity_[2][i]);
+    }
+    return Rgb(sum / static_cast<double>(all));
 }
 
 ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t link) const {
@@ -140,39 +139,41 @@ void ClusterExchange::gather(std::size_t begin, std::size_t end, std::span<Rgb> 
             incoming_[i] = bring(wanted_[i].first, wanted_[i].second);
         }
     });
-    problem_.executor.forRange(end - begin, kRun, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; i += kRun) {
-            const std::size_t count = std::min(kRun, last - i);
+    problem_.executor.forRange(end - begin, kPatchRun, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; i += kPatchRun) {
+            const std::size_t count = std::min(kPatchRun, last - i);
             share(begin + i, begin + i + count, out.subspan(i, count));
         }
     });
 }
 
-// Adds what the clusters above patches[begin, end), at most kRun of them, share out.
+// Adds what the clusters above patches[begin, end), at most kPatchRun of them, share out.
 void ClusterExchange::share(std::size_t begin, std::size_t end, std::span<Rgb> out) const {
     const Hierarchy& h = problem_.hierarchy;
-    std::array<Vec3d, kRun> sums{};
-    std::array<float, kRun> shares;
+    transport::RunSums sums{};
     for (std::size_t i = begin; i < end; ++i) {
         // Each cluster once, at its first patch here.
         for (NodeId id = h.parent(h.patches()[i]);
              id != NodeId::none && (i == begin || h.firstPatchBelow(id) == i); id = h.parent(id)) {
             const std::size_t last = std::min(end, h.firstPatchBelow(id) + h.patchesBelow(id).size());
-            const std::size_t count = last - i;
+            const std::size_t place = i - begin;
             for (std::size_t k = 0; k < problem_.links.endingAt(id).size(); ++k) {
                 const Incoming& in = incoming_[first_[base::index(id)] + k];
-                shares.fill(1.0f);
                 if (!in.isEven) {
-                    transport::computeShares(h.patchTable(), i, in.source, std::span(shares.data(), count));
+                    transport::addShared(h.patchTable(), i, last - i, in.source, in.flux, in.most, sums,
+                                         place);
+                    continue;
                 }
-                for (std::size_t p = 0; p < count; ++p) {
-                    sums[i - begin + p] += Vec3d(glm::min(shares[p] * in.flux, in.most));
+                for (std::size_t p = place; p < last - begin; ++p) {
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        sums[c][p] += std::min(in.flux[static_cast<int>(c)], in.most[static_cast<int>(c)]);
+                    }
                 }
             }
         }
     }
     for (std::size_t i = 0; i < end - begin; ++i) {
-        out[i] = Rgb(sums[i]) * scaleOf(h.patches()[begin + i]);
+        out[i] = Rgb(sums[0][i], sums[1][i], sums[2][i]) * scaleOf(h.patches()[begin + i]);
     }
 }
 
