@@ -27,10 +27,12 @@ ClusterExchange::ClusterExchange(const Problem& problem, const std::vector<float
     if (count == 0) {
         return;
     }
-    views_.resize(count);
+    const bool isIsotropic = problem.options.clusterModel == ClusterModel::isotropic;
+    views_.resize(isIsotropic ? 0 : count);
+    means_.resize(isIsotropic ? h.nodeCount() : 0);
     stamp_.assign(h.nodeCount(), 0);
     first_.assign(h.nodeCount(), 0);
-    problem.executor.forRange(count, 256, [&](std::size_t begin, std::size_t end) {
+    problem.executor.forRange(views_.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Link& link = problem.links.links[i];
             const auto view = [&h](NodeId id, NodeId other) -> View {
@@ -61,6 +63,33 @@ void ClusterExchange::refresh(std::size_t begin, std::size_t end) {
         radiosity_[1][i] = shown.g;
         radiosity_[2][i] = shown.b;
     }
+    if (!means_.empty()) {
+        refreshMeans(problem_.hierarchy.root(), begin, end);
+    }
+}
+
+// Means of a cluster and what is below it, as far as patches[begin, end) changed.
+void ClusterExchange::refreshMeans(NodeId id, std::size_t begin, std::size_t end) {
+    const Hierarchy& h = problem_.hierarchy;
+    const std::size_t first = h.firstPatchBelow(id);
+    if (first >= end || first + h.patchesBelow(id).size() <= begin) {
+        return;
+    }
+    Rgb& mean = means_[base::index(id)];
+    if (h.kind(id) != NodeKind::cluster) {
+        mean = Rgb(radiosity_[0][first], radiosity_[1][first], radiosity_[2][first]);
+        return;
+    }
+    mean = Rgb(0.0f);
+    float all = 0.0f;
+    for (unsigned c = 0; c < 2; ++c) {
+        const NodeId child = h.child(id, c);
+        refreshMeans(child, begin, end);
+        const float area = h.shape(child).ownArea();
+        mean += area * means_[base::index(child)];
+        all += area;
+    }
+    mean = all > 0.0f ? mean / all : Rgb(0.0f);
 }
 
 const ClusterExchange::View& ClusterExchange::viewFrom(std::size_t link, NodeId id) const {
@@ -81,6 +110,9 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
         const float s = frame.xx * there.x + frame.xy * there.y;
         const float t = frame.xy * there.x + frame.yy * there.y;
         return (light.radiosity + light.slopeS * s + light.slopeT * t) * scaleOf(id);
+    }
+    if (!means_.empty()) {
+        return means_[base::index(id)];
     }
     const View& view = viewFrom(link, id);
     const hierarchy::PatchTable& table = h.patchTable();
@@ -107,12 +139,13 @@ ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t lin
     const Hierarchy& h = problem_.hierarchy;
     const Link& l = problem_.links.links[link];
     const NodeId source = otherEnd(l, cluster);
-    const View& view = viewFrom(link, cluster);
     // Linear ends may show a little less than nothing.
     const Rgb shown = glm::max(shownBy(link, source), Rgb(0.0f));
     const Rgb power = l.transfer() * shown;
-    if (view.shares > 0.0f) {
-        return {view.other, false, power / view.shares, shown};
+    if (means_.empty()) {
+        if (const View& view = viewFrom(link, cluster); view.shares > 0.0f) {
+            return {view.other, false, power / view.shares, shown};
+        }
     }
     const float area = h.shape(cluster).ownArea();
     return {{}, true, area > 0.0f ? power / area : Rgb(0.0f), shown};
@@ -157,17 +190,19 @@ void ClusterExchange::share(std::size_t begin, std::size_t end, std::span<Rgb> o
              id != NodeId::none && (i == begin || h.firstPatchBelow(id) == i); id = h.parent(id)) {
             const std::size_t last = std::min(end, h.firstPatchBelow(id) + h.patchesBelow(id).size());
             const std::size_t place = i - begin;
+            Rgb even(0.0f);
             for (std::size_t k = 0; k < problem_.links.endingAt(id).size(); ++k) {
                 const Incoming& in = incoming_[first_[base::index(id)] + k];
                 if (!in.isEven) {
                     transport::addShared(h.patchTable(), i, last - i, in.source, in.flux, in.most, sums,
                                          place);
-                    continue;
+                } else {
+                    even += glm::min(in.flux, in.most);
                 }
+            }
+            for (std::size_t c = 0; c < 3; ++c) {
                 for (std::size_t p = place; p < last - begin; ++p) {
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        sums[c][p] += std::min(in.flux[static_cast<int>(c)], in.most[static_cast<int>(c)]);
-                    }
+                    sums[c][p] += even[static_cast<int>(c)];
                 }
             }
         }
