@@ -65,8 +65,9 @@ void addCheckpointOptions(CLI::App& app, SolverArguments& arguments) {
         ->group("Solver");
     app.add_option("--resume", arguments.resume,
                    "Go on from a checkpoint of the same SCENE (and --sky), to the same bits as a solve that "
-                   "was not interrupted. Its options hold unless they are typed anew; --seed, --clusters and "
-                   "--rays cannot change, --time-limit counts anew, and --memory-limit is the machine's.")
+                   "was not interrupted. Its options hold unless they are typed anew; --seed, --clusters, "
+                   "--cluster-model and --rays cannot change, --time-limit counts anew, and --memory-limit "
+                   "is the machine's.")
         ->type_name("FILE")
         ->group("Solver");
 }

@@ -12,8 +12,7 @@ using hierarchy::Hierarchy;
 using hierarchy::Link;
 using hierarchy::NodeKind;
 
-/// Patches that are taken at once.
-constexpr std::size_t kRun = 64;
+using transport::kPatchRun;
 
 NodeId otherEnd(const Link& link, NodeId id) {
     return link.a == id ? link.b : link.a;
@@ -28,10 +27,12 @@ ClusterExchange::ClusterExchange(const Problem& problem, const std::vector<float
     if (count == 0) {
         return;
     }
-    views_.resize(count);
+    const bool isIsotropic = problem.options.clusterModel == ClusterModel::isotropic;
+    views_.resize(isIsotropic ? 0 : count);
+    means_.resize(isIsotropic ? h.nodeCount() : 0);
     stamp_.assign(h.nodeCount(), 0);
     first_.assign(h.nodeCount(), 0);
-    problem.executor.forRange(count, 256, [&](std::size_t begin, std::size_t end) {
+    problem.executor.forRange(views_.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Link& link = problem.links.links[i];
             const auto view = [&h](NodeId id, NodeId other) -> View {
@@ -62,6 +63,33 @@ void ClusterExchange::refresh(std::size_t begin, std::size_t end) {
         radiosity_[1][i] = shown.g;
         radiosity_[2][i] = shown.b;
     }
+    if (!means_.empty()) {
+        refreshMeans(problem_.hierarchy.root(), begin, end);
+    }
+}
+
+// Means of a cluster and what is below it, as far as patches[begin, end) changed.
+void ClusterExchange::refreshMeans(NodeId id, std::size_t begin, std::size_t end) {
+    const Hierarchy& h = problem_.hierarchy;
+    const std::size_t first = h.firstPatchBelow(id);
+    if (first >= end || first + h.patchesBelow(id).size() <= begin) {
+        return;
+    }
+    Rgb& mean = means_[base::index(id)];
+    if (h.kind(id) != NodeKind::cluster) {
+        mean = Rgb(radiosity_[0][first], radiosity_[1][first], radiosity_[2][first]);
+        return;
+    }
+    mean = Rgb(0.0f);
+    float all = 0.0f;
+    for (unsigned c = 0; c < 2; ++c) {
+        const NodeId child = h.child(id, c);
+        refreshMeans(child, begin, end);
+        const float area = h.shape(child).ownArea();
+        mean += area * means_[base::index(child)];
+        all += area;
+    }
+    mean = all > 0.0f ? mean / all : Rgb(0.0f);
 }
 
 const ClusterExchange::View& ClusterExchange::viewFrom(std::size_t link, NodeId id) const {
@@ -83,37 +111,41 @@ Rgb ClusterExchange::shownBy(std::size_t link, NodeId id) const {
         const float t = frame.xy * there.x + frame.yy * there.y;
         return (light.radiosity + light.slopeS * s + light.slopeT * t) * scaleOf(id);
     }
+    if (!means_.empty()) {
+        return means_[base::index(id)];
+    }
     const View& view = viewFrom(link, id);
     const hierarchy::PatchTable& table = h.patchTable();
     const std::size_t first = h.firstPatchBelow(id);
     const std::size_t end = first + h.patchesBelow(id).size();
-    std::array<float, kRun> shares;
-    shares.fill(1.0f);
-    Vec3d sum(0.0);
-    for (std::size_t i = first; i < end; i += kRun) {
-        const std::size_t count = std::min(kRun, end - i);
-        if (view.shares > 0.0f) {
-            transport::computeShares(table, i, view.other, std::span(shares.data(), count));
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto weight = static_cast<double>(table.area[i + k] * shares[k]);
-            sum += weight * Vec3d(radiosity_[0][i + k], radiosity_[1][i + k], radiosity_[2][i + k]);
-        }
-    }
     const float all = view.shares > 0.0f ? view.shares : h.shape(id).ownArea();
-    return all > 0.0f ? Rgb(sum / static_cast<double>(all)) : Rgb(0.0f);
+    if (!(all > 0.0f)) {
+        return Rgb(0.0f);
+    }
+    if (view.shares > 0.0f) {
+        return Rgb(transport::sumShared(table, first, end, view.other,
+                                        {radiosity_[0], radiosity_[1], radiosity_[2]}) /
+                   static_cast<double>(all));
+    }
+    Vec3d sum(0.0);
+    for (std::size_t i = first; i < end; ++i) {
+        sum +=
+            static_cast<double>(table.area[i]) * Vec3d(radiosity_[0][i], radiosity_[1][i], radiosity_[2][i]);
+    }
+    return Rgb(sum / static_cast<double>(all));
 }
 
 ClusterExchange::Incoming ClusterExchange::bring(NodeId cluster, std::size_t link) const {
     const Hierarchy& h = problem_.hierarchy;
     const Link& l = problem_.links.links[link];
     const NodeId source = otherEnd(l, cluster);
-    const View& view = viewFrom(link, cluster);
     // Linear ends may show a little less than nothing.
     const Rgb shown = glm::max(shownBy(link, source), Rgb(0.0f));
     const Rgb power = l.transfer() * shown;
-    if (view.shares > 0.0f) {
-        return {view.other, false, power / view.shares, shown};
+    if (means_.empty()) {
+        if (const View& view = viewFrom(link, cluster); view.shares > 0.0f) {
+            return {view.other, false, power / view.shares, shown};
+        }
     }
     const float area = h.shape(cluster).ownArea();
     return {{}, true, area > 0.0f ? power / area : Rgb(0.0f), shown};
@@ -140,39 +172,43 @@ void ClusterExchange::gather(std::size_t begin, std::size_t end, std::span<Rgb> 
             incoming_[i] = bring(wanted_[i].first, wanted_[i].second);
         }
     });
-    problem_.executor.forRange(end - begin, kRun, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; i += kRun) {
-            const std::size_t count = std::min(kRun, last - i);
+    problem_.executor.forRange(end - begin, kPatchRun, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; i += kPatchRun) {
+            const std::size_t count = std::min(kPatchRun, last - i);
             share(begin + i, begin + i + count, out.subspan(i, count));
         }
     });
 }
 
-// Adds what the clusters above patches[begin, end), at most kRun of them, share out.
+// Adds what the clusters above patches[begin, end), at most kPatchRun of them, share out.
 void ClusterExchange::share(std::size_t begin, std::size_t end, std::span<Rgb> out) const {
     const Hierarchy& h = problem_.hierarchy;
-    std::array<Vec3d, kRun> sums{};
-    std::array<float, kRun> shares;
+    transport::RunSums sums{};
     for (std::size_t i = begin; i < end; ++i) {
         // Each cluster once, at its first patch here.
         for (NodeId id = h.parent(h.patches()[i]);
              id != NodeId::none && (i == begin || h.firstPatchBelow(id) == i); id = h.parent(id)) {
             const std::size_t last = std::min(end, h.firstPatchBelow(id) + h.patchesBelow(id).size());
-            const std::size_t count = last - i;
+            const std::size_t place = i - begin;
+            Rgb even(0.0f);
             for (std::size_t k = 0; k < problem_.links.endingAt(id).size(); ++k) {
                 const Incoming& in = incoming_[first_[base::index(id)] + k];
-                shares.fill(1.0f);
                 if (!in.isEven) {
-                    transport::computeShares(h.patchTable(), i, in.source, std::span(shares.data(), count));
+                    transport::addShared(h.patchTable(), i, last - i, in.source, in.flux, in.most, sums,
+                                         place);
+                } else {
+                    even += glm::min(in.flux, in.most);
                 }
-                for (std::size_t p = 0; p < count; ++p) {
-                    sums[i - begin + p] += Vec3d(glm::min(shares[p] * in.flux, in.most));
+            }
+            for (std::size_t c = 0; c < 3; ++c) {
+                for (std::size_t p = place; p < last - begin; ++p) {
+                    sums[c][p] += even[static_cast<int>(c)];
                 }
             }
         }
     }
     for (std::size_t i = 0; i < end - begin; ++i) {
-        out[i] = Rgb(sums[i]) * scaleOf(h.patches()[begin + i]);
+        out[i] = Rgb(sums[0][i], sums[1][i], sums[2][i]) * scaleOf(h.patches()[begin + i]);
     }
 }
 

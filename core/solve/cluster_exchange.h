@@ -7,7 +7,8 @@ namespace fluxwalk::solve {
 
 /// Light that comes and goes through the links of clusters, in two traversals (Schaefer, section 3): what the
 /// source's patches send towards the other end is added up, what arrives is shared among the receiver's
-/// patches, each by its own direction and distance (transport/cluster_factor.h).
+/// patches, each by its own direction and distance (transport/cluster_factor.h). Isotropic clusters show the
+/// mean of their patches and share evenly.
 class ClusterExchange {
   public:
     /// Reads the links as they stand: make a new one after refinement. `scale`: a factor of each node on all
@@ -42,6 +43,7 @@ class ClusterExchange {
         float shares = 0.0f;  ///< sum over its patches, m2 / m2
     };
 
+    void refreshMeans(NodeId id, std::size_t begin, std::size_t end);
     void share(std::size_t begin, std::size_t end, std::span<Rgb> out) const;
     const View& viewFrom(std::size_t link, NodeId id) const;
     Incoming bring(NodeId cluster, std::size_t link) const;
@@ -52,6 +54,7 @@ class ClusterExchange {
     bool isUniform_;
     std::vector<std::array<View, 2>> views_;  ///< of both ends of the links with clusters; of elements unused
     std::array<std::vector<float>, 3> radiosity_;  ///< of the patches, scaled
+    std::vector<Rgb> means_;                       ///< by node, of isotropic clusters: that of their patches
     std::vector<std::uint32_t> stamp_;             ///< by cluster: the last call of gather() that needed it
     std::vector<std::uint32_t> first_;             ///< by cluster: its first one in incoming_
     std::vector<Incoming> incoming_;

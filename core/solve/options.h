@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/rays/ray_scene.h"
+#include "core/transport/cluster_model.h"
 #include "core/transport/oracle.h"
 
 /// What the user may turn. Every value has a unit and a default; cli and viewer show the same table.
@@ -11,6 +12,7 @@ namespace fluxwalk::solve {
 
 using rays::RayEngine;
 using rays::TreeBuilder;
+using transport::ClusterModel;
 using transport::OracleKind;
 
 /// Where the requested error is to hold.
@@ -61,6 +63,8 @@ struct Options {
     double displayAngle = 4.0;
     /// How clusters, and trees for shafts and RayEngine::clusters, are built. Fixed when a solver is made.
     TreeBuilder clusters = TreeBuilder::sah;
+    /// What clusters are taken for in transport. Fixed when a solver is made.
+    ClusterModel clusterModel = ClusterModel::oriented;
     /// What answers rays of visibility. Fixed when a solver is made.
     RayEngine rays = RayEngine::embree;
     std::uint64_t seed = 1;

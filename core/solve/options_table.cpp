@@ -123,6 +123,18 @@ std::vector<OptionInfo> makeTable() {
              "pairs of patches that see each other: the work grows with the square of their number.",
          .get = [](const Options& o) { return static_cast<double>(o.clusterLinks); },
          .set = [](Options& o, double value) { o.clusterLinks = static_cast<ClusterLinks>(value); }});
+    table.push_back(
+        {.name = "cluster-model",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .choices = {"oriented", "isotropic"},
+         .explanation =
+             "What links take clusters for: 'oriented' shares light among the surfaces by their directions "
+             "and asks rays what they see; 'isotropic' takes them for fog that sends and receives alike in "
+             "all directions: a cheaper approximation, for comparison.",
+         .get = [](const Options& o) { return static_cast<double>(o.clusterModel); },
+         .set = [](Options& o, double value) { o.clusterModel = static_cast<ClusterModel>(value); }});
     table.push_back({.name = "rays",
                      .kind = OptionKind::choice,
                      .minimum = 0.0,

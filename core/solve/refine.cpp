@@ -30,7 +30,7 @@ class Refinement {
     Refinement(Problem& problem, double threshold)
         : problem_(problem),
           hierarchy_(problem.hierarchy),
-          service_(problem.hierarchy, problem.rays),
+          service_(problem.hierarchy, problem.rays, problem.options.clusterModel),
           threshold_(static_cast<float>(threshold)),
           minArea_(problem.minArea()),
           sceneArea_(static_cast<float>(problem.hierarchy.totalArea())),

@@ -46,6 +46,7 @@ void Run::takeNewOptions() {
     problem_.options = *changed;
     problem_.options.seed = built.seed;
     problem_.options.clusters = built.clusters;
+    problem_.options.clusterModel = built.clusterModel;
     problem_.options.rays = built.rays;
     if (problem_.hierarchy.patches().size() > kMaxPairedPatches) {
         problem_.options.clusterLinks = ClusterLinks::on;

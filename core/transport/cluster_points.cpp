@@ -15,10 +15,12 @@ ClusterSampler::ClusterSampler(const hierarchy::Hierarchy& hierarchy, NodeId clu
 
 ClusterSampler::Place ClusterSampler::at(double place, double across) const {
     const double wanted = before_ + place * area_;
+    // Without branches, which could not be foretold.
     std::uint32_t first = begin_;
-    for (std::uint32_t last = end_; last - first > 1;) {
-        const std::uint32_t middle = first + (last - first) / 2;
-        (hierarchy_.sampledAreaBefore(middle) <= wanted ? first : last) = middle;
+    for (std::uint32_t count = end_ - begin_; count > 1;) {
+        const std::uint32_t half = count / 2;
+        first += hierarchy_.sampledAreaBefore(first + half) <= wanted ? half : 0;
+        count -= half;
     }
     const double below = hierarchy_.sampledAreaBefore(first);
     const double size = hierarchy_.sampledAreaBefore(first + 1) - below;

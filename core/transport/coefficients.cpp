@@ -10,6 +10,7 @@
 #include "core/transport/contact_visibility.h"
 #include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
+#include "core/transport/isotropic_cluster.h"
 #include "core/transport/shaft.h"
 #include "core/transport/touching_factor.h"
 #include "core/transport/visibility.h"
@@ -159,7 +160,9 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
         out.visibility = 0.0f;
         return out;
     }
-    const PairFactor factor = computeClusterFactor(hierarchy_, query.a, query.b);
+    const bool isFog = model_ == ClusterModel::isotropic;
+    const PairFactor factor = isFog ? computeIsotropicFactor(hierarchy_, query.a, query.b)
+                                    : computeClusterFactor(hierarchy_, query.a, query.b);
     // Points of clusters that overlap may come too near to each other; nothing sends more than it has.
     out.coupling = std::min({static_cast<float>(factor.coupling), hierarchy_.shape(query.a).sampledArea(),
                              hierarchy_.shape(query.b).sampledArea()});
@@ -169,6 +172,11 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
     out.spreadB = static_cast<float>(factor.spreadB);
     out.evaluations = static_cast<std::uint16_t>(std::min(factor.evaluations, 0xffffU));
     if (out.coupling <= 0.0f) {
+        return out;
+    }
+    if (isFog) {
+        out.visibility = attenuate(hierarchy_, query.a, query.b);
+        out.isMixed = out.visibility > 0.0f && out.visibility < 1.0f;
         return out;
     }
     const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);

@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/hierarchy/hierarchy.h"
 #include "core/rays/ray_scene.h"
+#include "core/transport/cluster_model.h"
 
 namespace fluxwalk::transport {
 
@@ -39,8 +40,9 @@ struct Coefficient {
 /// results depend on the names of the pairs and the original objects only.
 class CoefficientService {
   public:
-    CoefficientService(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays)
-        : hierarchy_(hierarchy), rays_(rays) {}
+    CoefficientService(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
+                       ClusterModel model = ClusterModel::oriented)
+        : hierarchy_(hierarchy), rays_(rays), model_(model) {}
 
     /// out.size() == queries.size(). Safe to call from several threads on disjoint spans.
     void compute(std::span<const Query> queries, std::span<Coefficient> out) const;
@@ -56,6 +58,7 @@ class CoefficientService {
 
     const hierarchy::Hierarchy& hierarchy_;
     const rays::RayScene& rays_;
+    ClusterModel model_;
 };
 
 /// Largest visibility that k of n unblocked rays still allow: (k + 1) / (n + 2) and one standard deviation; 1

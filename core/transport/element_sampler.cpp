@@ -6,17 +6,17 @@
 namespace fluxwalk::transport {
 
 ElementSampler::ElementSampler(const hierarchy::Hierarchy& hierarchy, NodeId id, double shift)
-    : shape_(hierarchy.shape(id)),
-      surface_(hierarchy.surfaceOf(id)),
-      name_(hierarchy.name(id)),
-      axis_(hierarchy.shape(id).axis),
-      shift_(shift) {
+    : shape_(hierarchy.shape(id)), name_(hierarchy.name(id)), axis_(hierarchy.shape(id).axis), shift_(shift) {
     if (!shape_.isPlanar) {
+        surface_ = &hierarchy.surfaceOf(id);
         region_ = hierarchy.region(id);
     }
-    for (unsigned cell = 0; cell < 16; ++cell) {
-        if ((shape_.exposedCells >> cell & 1u) != 0) {
-            cells_[cellCount_++] = static_cast<std::uint8_t>(cell);
+    if (shape_.exposedCells != 0xffff) {
+        cellCount_ = 0;
+        for (unsigned cell = 0; cell < 16; ++cell) {
+            if ((shape_.exposedCells >> cell & 1u) != 0) {
+                cells_[cellCount_++] = static_cast<std::uint8_t>(cell);
+            }
         }
     }
     for (std::uint32_t i = 0; i < shape_.cornerCount; ++i) {
@@ -40,7 +40,7 @@ SurfaceSample ElementSampler::at(const base::Vec2d& st) const {
                                          : base::Vec2d(2.0 * s - 1.0, 2.0 * t - 1.0);
     if (!shape_.isPlanar) {
         const surface::RegionPoint where = surface::mapToRegion(region_, st);
-        const surface::SurfacePoint p = surface_.evaluate(name_.patch, where.uv);
+        const surface::SurfacePoint p = surface_->evaluate(name_.patch, where.uv);
         return {p.position, name_.back ? -p.normal : p.normal, p.jacobian * where.jacobian, local};
     }
     const auto& c = corners_;

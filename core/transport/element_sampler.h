@@ -42,7 +42,7 @@ class ElementSampler {
 
   private:
     const hierarchy::Shape& shape_;
-    const surface::Surface& surface_;
+    const surface::Surface* surface_ = nullptr;  ///< of curved elements
     hierarchy::ElementName name_;
     surface::Region region_;
     std::array<Vec3d, 4> corners_{};
@@ -51,8 +51,8 @@ class ElementSampler {
     double alongS_ = 0.0;
     double alongT_ = 0.0;
     double shift_;
-    std::array<std::uint8_t, 16> cells_{};
-    unsigned cellCount_ = 0;
+    std::array<std::uint8_t, 16> cells_;  ///< the exposed ones, where not all are
+    unsigned cellCount_ = 16;
 };
 
 }  // namespace fluxwalk::transport

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -27,5 +28,20 @@ float computeShare(const hierarchy::PatchTable& patches, std::size_t patch, cons
 
 /// Sum of the shares of patches [begin, end), times their exposed areas.
 float sumShares(const hierarchy::PatchTable& patches, std::size_t begin, std::size_t end, const Ball& ball);
+
+/// Values of all patches in three channels, each in the order of the table.
+using PatchValues = std::array<std::span<const float>, 3>;
+/// Sum of `values` of patches [begin, end), times their shares and exposed areas.
+base::Vec3d sumShared(const hierarchy::PatchTable& patches, std::size_t begin, std::size_t end,
+                      const Ball& ball, const PatchValues& values);
+
+/// Patches that are taken at once.
+inline constexpr std::size_t kPatchRun = 64;
+/// Sums for a run of patches, by channel.
+using RunSums = std::array<std::array<float, kPatchRun>, 3>;
+/// Adds `flux` times their shares, but `most` at most, to the sums of `count` patches from `begin` on, which
+/// stand from `place` on.
+void addShared(const hierarchy::PatchTable& patches, std::size_t begin, std::size_t count, const Ball& ball,
+               const base::Rgb& flux, const base::Rgb& most, RunSums& sums, std::size_t place);
 
 }  // namespace fluxwalk::transport
