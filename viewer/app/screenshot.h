@@ -8,13 +8,14 @@
 #include "core/scene/scene.h"
 #include "viewer/gl/context.h"
 #include "viewer/gl/pixel_size.h"
-#include "viewer/render/tone.h"
+#include "viewer/render/scene_renderer.h"
 
 namespace fluxwalk::app {
 
-/// Draws lit meshes at automatic exposure with smooth edges: 3 bytes a pixel, sRGB, rows from the top.
+/// Draws lit meshes with smooth edges, and a legend where values are shown: 3 bytes a pixel, sRGB, rows from
+/// the top.
 std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_ptr<const scene::Scene>& scene,
                                       const scene::LitMeshes& meshes, const scene::Camera& camera,
-                                      gl::PixelSize size, render::ToneCurve curve);
+                                      gl::PixelSize size, const render::DrawSettings& look);
 
 }  // namespace fluxwalk::app

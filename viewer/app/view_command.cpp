@@ -1,6 +1,5 @@
 #include "viewer/app/view_command.h"
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,8 +12,10 @@
 #include "core/io/image_write.h"
 #include "core/io/lit_gltf.h"
 #include "viewer/app/camera_arguments.h"
+#include "viewer/app/choice.h"
 #include "viewer/app/first_view.h"
 #include "viewer/app/floor.h"
+#include "viewer/app/look_arguments.h"
 #include "viewer/app/picture_size.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/walkthrough.h"
@@ -37,20 +38,13 @@ struct ViewArguments {
     std::filesystem::path screenshot;
     gl::PixelSize size = kDefaultPicture;
     GlChoice gl = GlChoice::automatic;
+    render::DrawSettings look;
 };
 
-GlChoice parseGl(const std::string& text) {
-    constexpr std::array<std::pair<std::string_view, GlChoice>, 4> kChoices{{{"auto", GlChoice::automatic},
-                                                                             {"egl", GlChoice::egl},
-                                                                             {"osmesa", GlChoice::osmesa},
-                                                                             {"window", GlChoice::window}}};
-    for (const auto& [name, choice] : kChoices) {
-        if (text == name) {
-            return choice;
-        }
-    }
-    throw base::UsageError("--gl: '" + text + "' is none of auto, egl, osmesa and window");
-}
+constexpr Choices<GlChoice, 4> kGlChoices{{{"auto", GlChoice::automatic},
+                                           {"egl", GlChoice::egl},
+                                           {"osmesa", GlChoice::osmesa},
+                                           {"window", GlChoice::window}}};
 
 bool isLit(const std::string& scene) {
     std::error_code ignored;
@@ -111,7 +105,7 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
     }
     const scene::Camera camera = cameraFor(arguments, shown);
     const std::vector<std::uint8_t> pixels =
-        drawPicture(*context, shown.scene, shown.meshes, camera, arguments.size, render::ToneCurve::filmic);
+        drawPicture(*context, shown.scene, shown.meshes, camera, arguments.size, arguments.look);
     cli::writeOutput([&] {
         io::writePng(file, static_cast<std::uint32_t>(arguments.size.width),
                      static_cast<std::uint32_t>(arguments.size.height), pixels);
@@ -148,6 +142,7 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
         }
     }
     exhibit.camera = cameraFor(arguments, shown);
+    exhibit.look = arguments.look;
     exhibit.scene = shown.scene;
     exhibit.meshes = std::move(shown.meshes);
     exhibit.solid = shown.solid;
@@ -156,6 +151,7 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
 }
 
 cli::ExitCode runView(const ViewArguments& arguments) {
+    checkLook(arguments.look);
     if (!arguments.screenshot.empty()) {
         return takePicture(arguments, arguments.screenshot);
     }
@@ -195,11 +191,15 @@ cli::Command viewCommand() {
                 ->type_name("WxH")
                 ->group("Picture");
             app.add_option_function<std::string>(
-                   "--gl", [arguments](const std::string& text) { arguments->gl = parseGl(text); },
+                   "--gl",
+                   [arguments](const std::string& text) {
+                       arguments->gl = parseChoice("--gl", text, kGlChoices);
+                   },
                    "What draws the picture: egl needs no display, osmesa is Mesa's software renderer, window "
                    "a display. By default egl, or osmesa where that cannot be had.")
                 ->type_name("auto|egl|osmesa|window")
                 ->group("Picture");
+            addLookOptions(app, arguments->look);
             cli::addSolverOptions(app, arguments->solver);
             cli::addOutputOptions(app, arguments->output);
             return [arguments] { return runView(*arguments); };

@@ -13,6 +13,7 @@
 #include "viewer/render/scene_renderer.h"
 #include "viewer/ui/imgui_context.h"
 #include "viewer/ui/imgui_renderer.h"
+#include "viewer/ui/legend.h"
 #include "viewer/ui/panel.h"
 
 namespace fluxwalk::app {
@@ -85,6 +86,7 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit)
       renderer_(window.functions(), exhibit.scene),
       mouse_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
+      settings_{{}, exhibit.look},
       options_(exhibit.options.value_or(solve::Options{})),
       now_(glfwGetTime()),
       floor_(exhibit.solid) {
@@ -155,6 +157,10 @@ void Walkthrough::takeKeys() {
         const bool walks = walker_.movement == ui::Movement::walk;
         walker_.movement = walks ? ui::Movement::fly : ui::Movement::walk;
     }
+    if (ImGui::IsKeyPressed(GLFW_KEY_C, false)) {
+        const bool isPicture = settings_.draw.shown == render::Shown::picture;
+        settings_.draw.shown = isPicture ? render::Shown::illuminance : render::Shown::picture;
+    }
     if (session_ && ImGui::IsKeyPressed(GLFW_KEY_P, false)) {
         isPaused_ = !isPaused_;
         session_->setPaused(isPaused_);
@@ -194,9 +200,10 @@ void Walkthrough::drawScene() {
     }
     const bool mustBeQuick = window_.isSoftware() && now_ - lastMove_ < kStandstill;
     const int samples = settings_.smoothEdges && !mustBeQuick ? kSamples : 1;
-    const render::DrawSettings wanted{settings_.exposure.exposure, settings_.curve};
-    const bool isSame = target_ && target_->size() == size && target_->samples() == samples &&
-                        drawn_.exposure == wanted.exposure && drawn_.curve == wanted.curve;
+    render::DrawSettings wanted = settings_.draw;
+    wanted.exposure = settings_.exposure.exposure;
+    const bool isSame =
+        target_ && target_->size() == size && target_->samples() == samples && drawn_ == wanted;
     if (isSame && !needsDrawing_) {
         framesPerSecond_ = 0.0;
         return;
@@ -226,8 +233,12 @@ void Walkthrough::drawInterface() {
     info.triangleCount = renderer_.triangleCount();
     info.framesPerSecond = framesPerSecond_;
     info.renderer = window_.renderer();
+    info.shownRange = renderer_.rangeOf(settings_.draw);
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
+    if (settings_.draw.shown != render::Shown::picture) {
+        ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), scale);
+    }
     ui::drawKeys(mouse_.isCaptured(), walker_.movement, scale);
     if (session_ && actions.changedOptions) {
         session_->setOptions(options_);

@@ -7,6 +7,7 @@
 #include "core/scene/scene.h"
 #include "core/solve/options.h"
 #include "viewer/gl/window_context.h"
+#include "viewer/render/scene_renderer.h"
 #include "viewer/session/solver_session.h"
 
 namespace fluxwalk::app {
@@ -15,6 +16,8 @@ namespace fluxwalk::app {
 struct Exhibit {
     std::shared_ptr<const scene::Scene> scene;
     scene::Camera camera;
+    /// What is shown at first.
+    render::DrawSettings look;
     /// A lit file's meshes; empty where the scene is solved.
     scene::LitMeshes meshes;
     /// Its shapes as objects, for the floor: the scene itself, or one made of a lit file's meshes.

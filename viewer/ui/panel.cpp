@@ -165,12 +165,12 @@ void drawExposure(ViewSettings& settings) {
     }
 
     constexpr std::array<const char*, 3> kCurves{"Linear", "Filmic", "Reinhard"};
-    int curve = static_cast<int>(settings.curve);
+    int curve = static_cast<int>(settings.draw.curve);
     beginRow("Tone curve",
              "Linear is true to the light and clips. Filmic rolls off towards white and deepens the dark "
              "tones. Reinhard compresses all highlights and keeps their hue.");
     if (ImGui::Combo("##curve", &curve, kCurves.data(), static_cast<int>(kCurves.size()))) {
-        settings.curve = static_cast<render::ToneCurve>(curve);
+        settings.draw.curve = static_cast<render::ToneCurve>(curve);
     }
 }
 
@@ -238,6 +238,9 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
                 drawConvergence(info.snapshot->statistics, options.error, scale);
             }
         }
+        if (beginSection("Values")) {
+            drawShown(info, settings.draw);
+        }
         if (beginSection("Light and tone")) {
             drawExposure(settings);
         }
@@ -266,8 +269,8 @@ void drawKeys(bool isCaptured, Movement movement, float scale) {
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                          ImGuiWindowFlags_NoNav)) {
-        ImGui::TextColored(kTextDim, "WASD move    Q E down, up    %s    %s    P pause    H panel", look,
-                           other);
+        ImGui::TextColored(kTextDim, "WASD move    Q E down, up    %s    %s    C lux    P pause    H panel",
+                           look, other);
     }
     ImGui::End();
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/solve/solver.h"
-#include "viewer/render/tone.h"
+#include "viewer/render/scene_renderer.h"
 #include "viewer/session/solver_session.h"
 #include "viewer/ui/exposure_control.h"
 #include "viewer/ui/walker.h"
@@ -14,7 +14,8 @@ namespace fluxwalk::ui {
 /// What the user sets for the view.
 struct ViewSettings {
     ExposureControl exposure;
-    render::ToneCurve curve = render::ToneCurve::filmic;
+    /// All but the exposure.
+    render::DrawSettings draw;
     bool smoothEdges = true;
     bool isPanelOpen = true;
 };
@@ -30,6 +31,8 @@ struct PanelInfo {
     std::size_t triangleCount = 0;
     double framesPerSecond = 0.0;  ///< 0 while the picture stands still
     std::string renderer;
+    /// Range in which values are shown at present.
+    render::ValueRange shownRange;
 };
 
 /// What the user did in one frame, beside changing the structures passed in.
@@ -48,6 +51,7 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
 void drawKeys(bool isCaptured, Movement movement, float scale);
 
 /// Sections of the panel, each in its own file.
+void drawShown(const PanelInfo& info, render::DrawSettings& draw);
 void drawStatistics(const PanelInfo& info);
 void drawConvergence(const solve::Statistics& statistics, double target, float scale);
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "viewer/render/scene_renderer.h"
+
+namespace CLI {
+class App;
+}
+
+namespace fluxwalk::app {
+
+/// Adds the options that say what a picture, or the window at first, shows of the surfaces. They throw
+/// base::UsageError for what they cannot read.
+void addLookOptions(CLI::App& app, render::DrawSettings& look);
+
+/// A range as typed: two numbers, "A:B" with 0 <= A < B. Throws base::UsageError.
+render::ValueRange parseRange(const std::string& text);
+
+/// Throws base::UsageError where options of a look contradict each other.
+void checkLook(const render::DrawSettings& look);
+
+}  // namespace fluxwalk::app
