@@ -125,7 +125,7 @@ std::uint64_t Solver::countBytes() const {
     return state_->bytes();
 }
 std::shared_ptr<const Snapshot> Solver::show(const Detail& detail) {
-    return state_->publisher.make(detail, !state_->problem.statistics.history.empty());
+    return state_->publisher.make(detail, true);
 }
 scene::LitMeshes Solver::litMeshes() const {
     return state_->display.refresh();

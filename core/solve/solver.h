@@ -23,7 +23,7 @@ struct Snapshot {
     std::uint64_t sequence = 0;
     scene::LitMeshes meshes;
     Statistics statistics;
-    bool finished = false;
+    bool finished = false;  ///< the solver rests
     /// As far as Callbacks::detail asks for them. Elements are parallel to the meshes.
     std::vector<std::shared_ptr<const MeshElements>> elements;
     std::shared_ptr<const std::vector<ClusterBox>> clusters;

@@ -12,6 +12,10 @@ extern const std::string_view kBackgroundVertex;
 extern const std::string_view kBackgroundFragment;
 extern const std::string_view kTone;
 extern const std::string_view kFalseColor;
+extern const std::string_view kFaceVertex;
+extern const std::string_view kFaceFragment;
+extern const std::string_view kLineVertex;
+extern const std::string_view kLineFragment;
 extern const std::string_view kPanelVertex;
 extern const std::string_view kPanelFragment;
 

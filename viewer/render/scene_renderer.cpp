@@ -14,6 +14,8 @@ namespace {
 constexpr GLint kReflectanceUnit = 0;
 constexpr GLint kEmissionUnit = 1;
 constexpr GLint kColorMapUnit = 2;
+/// Shape without light.
+constexpr float kRelief = 0.55f;
 
 std::string join(std::initializer_list<std::string_view> parts) {
     std::string source(gl::shaders::kVersion);
@@ -54,7 +56,8 @@ SceneRenderer::SceneRenderer(const gl::Functions& gl, std::shared_ptr<const scen
       backgroundTone_(background_),
       noVertices_(gl),
       textures_(gl, scene_),
-      colorMapTexture_(gl) {
+      colorMapTexture_(gl),
+      overlay_(gl) {
     sendColorMap();
 }
 
@@ -120,7 +123,8 @@ void SceneRenderer::setValues(const DrawSettings& settings) const {
     const ValueRange range = rangeOf(settings);
     gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
     gl_.BindTexture(GL_TEXTURE_2D, colorMapTexture_.id());
-    gl_.Uniform1i(litUniforms_.shown, static_cast<GLint>(settings.shown));
+    const Shown shown = showsFaces(settings.shown) ? Shown::picture : settings.shown;
+    gl_.Uniform1i(litUniforms_.shown, static_cast<GLint>(shown));
     gl_.Uniform1i(litUniforms_.colorMap, kColorMapUnit);
     gl_.Uniform1i(litUniforms_.valueScale, static_cast<GLint>(settings.scale));
     gl_.Uniform2f(litUniforms_.valueRange, static_cast<GLfloat>(range.least),
@@ -146,18 +150,33 @@ void SceneRenderer::draw(const scene::Camera& camera, double aspect, const DrawS
     gl_.CullFace(GL_BACK);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     drawBackground(camera, matrix, settings);
+    const OverlayView view{matrix, base::Vec3(camera.position)};
+    if (showsFaces(settings.shown) && overlay_.hasFaces()) {
+        overlay_.drawFaces(view, settings.shown == Shown::objects ? kRelief : 0.0f);
+    } else {
+        drawLit(camera, matrix, settings);
+    }
+    if (settings.elementEdges) {
+        overlay_.drawEdges(view);
+    }
+    if (settings.clusterBoxes) {
+        overlay_.drawBoxes(view);
+    }
+    gl_.BindVertexArray(0);
+}
 
+void SceneRenderer::drawLit(const scene::Camera& camera, const glm::mat4& clipFromWorld,
+                            const DrawSettings& settings) {
     lit_.use();
     setTone(litTone_, settings);
     setValues(settings);
-    gl_.UniformMatrix4fv(litUniforms_.clipFromWorld, 1, GL_FALSE, &matrix[0][0]);
+    gl_.UniformMatrix4fv(litUniforms_.clipFromWorld, 1, GL_FALSE, &clipFromWorld[0][0]);
     gl_.Uniform1i(litUniforms_.reflectanceTexture, kReflectanceUnit);
     gl_.Uniform1i(litUniforms_.emissionTexture, kEmissionUnit);
     for (const GpuMesh* mesh : opaque_) {
         drawMesh(*mesh);
     }
     drawBlended(camera);
-    gl_.BindVertexArray(0);
 }
 
 void SceneRenderer::drawBackground(const scene::Camera& camera, const glm::mat4& clipFromWorld,

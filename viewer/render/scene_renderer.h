@@ -8,13 +8,26 @@
 #include "viewer/render/color_map.h"
 #include "viewer/render/false_color.h"
 #include "viewer/render/gpu_mesh.h"
+#include "viewer/render/overlay.h"
 #include "viewer/render/textures.h"
 #include "viewer/render/tone.h"
 
 namespace fluxwalk::render {
 
-/// What is shown of the surfaces; the numbers are those of the shader.
-enum class Shown : std::uint8_t { picture = 0, illuminance = 1, luminance = 2 };
+/// What is shown of the surfaces; the first numbers are those of the shader.
+enum class Shown : std::uint8_t {
+    picture = 0,
+    illuminance = 1,
+    luminance = 2,
+    level,  ///< of the elements, as colours of the overlay's faces, as all below
+    residual,
+    objects
+};
+
+/// Whether faces of the overlay are shown instead of the light.
+constexpr bool showsFaces(Shown shown) {
+    return shown >= Shown::level;
+}
 
 /// How a scene is shown.
 struct DrawSettings {
@@ -25,6 +38,8 @@ struct DrawSettings {
     ValueScale scale = ValueScale::logarithmic;
     std::optional<ValueRange> range{};
     bool isolines = true;
+    bool elementEdges = false;
+    bool clusterBoxes = false;
 
     bool operator==(const DrawSettings&) const = default;
 };
@@ -45,6 +60,10 @@ class SceneRenderer {
     /// The range in which values are shown: that of the settings, or the one found for the present meshes.
     ValueRange rangeOf(const DrawSettings& settings) const;
     const ColorMap& colorMap() const { return colorMap_; }
+
+    /// What is drawn where the settings ask for faces, element edges or cluster boxes; until it has faces,
+    /// lit surfaces are drawn.
+    Overlay& overlay() { return overlay_; }
 
     /// Draws into the bound target, over all of it.
     void draw(const scene::Camera& camera, double aspect, const DrawSettings& settings);
@@ -69,6 +88,7 @@ class SceneRenderer {
     void setTone(const ToneUniforms& uniforms, const DrawSettings& settings) const;
     void drawBackground(const scene::Camera& camera, const glm::mat4& clipFromWorld,
                         const DrawSettings& settings) const;
+    void drawLit(const scene::Camera& camera, const glm::mat4& clipFromWorld, const DrawSettings& settings);
     void drawMesh(const GpuMesh& mesh);
     void drawBlended(const scene::Camera& camera);
 
@@ -83,6 +103,7 @@ class SceneRenderer {
     Textures textures_;
     ColorMap colorMap_;
     gl::Texture colorMapTexture_;
+    Overlay overlay_;
     std::unordered_map<const scene::LitMesh*, GpuMesh> meshes_;
     /// In the order given, so that pictures do not depend on addresses.
     std::vector<const GpuMesh*> opaque_;
