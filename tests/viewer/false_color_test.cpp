@@ -77,10 +77,11 @@ TEST(ValueRange, IsReadAsTyped) {
     for (const char* text : {"", "10", "10:", ":5", "5:5", "9:3", "-1:3", "a:b", "1:2:3", "nan:3", "1:inf"}) {
         EXPECT_THROW(app::parseRange(text), base::UsageError) << text;
     }
-    DrawSettings look;
-    look.range = ValueRange{0.0, 1.0};
+    app::LookArguments look;
+    look.draw.shown = Shown::illuminance;
+    look.draw.range = ValueRange{0.0, 1.0};
     EXPECT_THROW(app::checkLook(look), base::UsageError);
-    look.scale = ValueScale::linear;
+    look.draw.scale = ValueScale::linear;
     EXPECT_NO_THROW(app::checkLook(look));
 }
 

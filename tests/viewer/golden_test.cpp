@@ -73,7 +73,7 @@ TEST_P(GalleryPictures, LookAsTheyShould) {
                      [](const scene::Camera& candidate) { return candidate.name == GetParam(); });
     ASSERT_NE(camera, scene_->cameras.end());
     const auto context = gl::makeHeadlessContext(gl::HeadlessKind::osmesa);
-    const auto drawn = app::drawPicture(*context, scene_, solver_->litMeshes(), *camera, kSize, {});
+    const auto drawn = app::drawPicture(*context, scene_, *solver_->show({}), *camera, kSize, {});
     const std::string name = std::string("gallery-") + GetParam() + ".png";
     const std::filesystem::path wanted = std::filesystem::path(FLUXWALK_SOURCE_DIR) / "tests/golden" / name;
     int width = 0;

@@ -14,10 +14,16 @@ namespace {
 
 constexpr gl::PixelSize kSize{320, 240};
 
+solve::Snapshot snapshotOf(const testing::TestRoom& room) {
+    solve::Snapshot snapshot;
+    snapshot.meshes = room.meshes;
+    return snapshot;
+}
+
 std::vector<std::uint8_t> drawRoom(gl::HeadlessKind kind, bool textured, ToneCurve curve) {
     const auto context = gl::makeHeadlessContext(kind);
     const testing::TestRoom room = testing::makeTestRoom(textured);
-    return app::drawPicture(*context, room.scene, room.meshes, room.camera, kSize, {{}, curve});
+    return app::drawPicture(*context, room.scene, snapshotOf(room), room.camera, kSize, {{}, curve});
 }
 
 struct Pixel {
@@ -48,7 +54,7 @@ TEST(EqualFalseColors, EglAndOsmesa) {
     const auto drawValues = [](gl::HeadlessKind kind) {
         const auto context = gl::makeHeadlessContext(kind);
         const testing::TestRoom room = testing::makeTestRoom(true);
-        return app::drawPicture(*context, room.scene, room.meshes, room.camera, kSize,
+        return app::drawPicture(*context, room.scene, snapshotOf(room), room.camera, kSize,
                                 {{}, ToneCurve::filmic, Shown::illuminance});
     };
     EXPECT_EQ(drawValues(gl::HeadlessKind::egl), drawValues(gl::HeadlessKind::osmesa));

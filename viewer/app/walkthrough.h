@@ -9,6 +9,7 @@
 #include "viewer/gl/window_context.h"
 #include "viewer/render/scene_renderer.h"
 #include "viewer/session/solver_session.h"
+#include "viewer/ui/inspection.h"
 
 namespace fluxwalk::app {
 
@@ -18,6 +19,7 @@ struct Exhibit {
     scene::Camera camera;
     /// What is shown at first.
     render::DrawSettings look;
+    ui::InspectionView inspection;
     /// A lit file's meshes; empty where the scene is solved.
     scene::LitMeshes meshes;
     /// Its shapes as objects, for the floor: the scene itself, or one made of a lit file's meshes.

@@ -40,6 +40,7 @@ struct DrawSettings {
     bool isolines = true;
     bool elementEdges = false;
     bool clusterBoxes = false;
+    unsigned clusterDepth = 5;  ///< below the root, of the boxes
 
     bool operator==(const DrawSettings&) const = default;
 };

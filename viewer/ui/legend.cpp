@@ -39,7 +39,9 @@ ImU32 pack(const render::Color8& color) {
 Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange& range,
                   const render::ColorMap& map) {
     Legend legend;
-    legend.title = settings.shown == render::Shown::luminance ? "Luminance, cd/m\u00b2" : "Illuminance, lx";
+    legend.title = settings.shown == render::Shown::luminance  ? "Luminance, cd/m\u00b2"
+                   : settings.shown == render::Shown::residual ? "Residual, lm/m\u00b2"
+                                                               : "Illuminance, lx";
     legend.colors.assign(map.colors().begin(), map.colors().end());
     for (const double number : render::roundNumbers(range, settings.scale)) {
         legend.marks.push_back({render::placeOf(number, range, settings.scale), formatRound(number)});
