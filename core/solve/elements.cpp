@@ -1,10 +1,49 @@
 #include "core/solve/elements.h"
 
+#include <algorithm>
+#include <array>
+
 #include "core/base/check.h"
 #include "core/base/photometry.h"
 #include "core/solve/sweep.h"
 
 namespace fluxwalk::solve {
+
+namespace {
+
+/// Edges between triangles of different elements and at the mesh's border.
+std::vector<std::uint32_t> findEdges(const scene::LitMesh& mesh,
+                                     const std::vector<std::uint32_t>& elementOf) {
+    struct Edge {
+        std::array<std::uint32_t, 2> ends;
+        std::uint32_t element;
+    };
+    std::vector<Edge> all;
+    all.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < elementOf.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = mesh.triangles[3 * t + k];
+            const std::uint32_t b = mesh.triangles[3 * t + (k + 1) % 3];
+            all.push_back({{std::min(a, b), std::max(a, b)}, elementOf[t]});
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+    std::vector<std::uint32_t> edges;
+    for (std::size_t begin = 0; begin < all.size();) {
+        std::size_t end = begin;
+        bool isWithin = true;
+        while (end < all.size() && all[end].ends == all[begin].ends) {
+            isWithin = isWithin && all[end++].element == all[begin].element;
+        }
+        if (!isWithin || end - begin == 1) {
+            edges.insert(edges.end(), all[begin].ends.begin(), all[begin].ends.end());
+        }
+        begin = end;
+    }
+    return edges;
+}
+
+}  // namespace
 
 MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh,
                               const display::CellTable& table, const std::vector<float>& residuals) {
@@ -35,6 +74,7 @@ MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh
             }
         }
     }
+    result.edges = findEdges(mesh, result.elementOf);
     return result;
 }
 

@@ -104,7 +104,7 @@ std::optional<ui::Legend> fillOverlay(render::Overlay& overlay, const solve::Sna
             }
         }
         if (look.elementEdges && hasElements) {
-            face.edges = render::findElementEdges(*mesh, snapshot.elements[i]->elementOf);
+            face.edges = snapshot.elements[i]->edges;
         }
         faces.push_back(std::move(face));
     }

@@ -179,8 +179,11 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
     exhibit.camera = cameraFor(arguments, shown);
     exhibit.look = arguments.look.draw;
     exhibit.inspection = arguments.look.inspection;
+    exhibit.isProbing = exhibit.inspection.links || exhibit.inspection.contributors;
     exhibit.scene = shown.scene;
-    exhibit.meshes = std::move(shown.snapshot.meshes);
+    if (!exhibit.options) {
+        exhibit.lit = std::make_shared<const solve::Snapshot>(std::move(shown.snapshot));
+    }
     exhibit.solid = shown.solid;
     walkThrough(window, exhibit);
     return cli::ExitCode::success;

@@ -19,9 +19,10 @@ struct Exhibit {
     scene::Camera camera;
     /// What is shown at first.
     render::DrawSettings look;
+    bool isProbing = false;
     ui::InspectionView inspection;
-    /// A lit file's meshes; empty where the scene is solved.
-    scene::LitMeshes meshes;
+    /// A lit file's meshes; null where the scene is solved.
+    std::shared_ptr<const solve::Snapshot> lit;
     /// Its shapes as objects, for the floor: the scene itself, or one made of a lit file's meshes.
     std::shared_ptr<const scene::Scene> solid;
     /// How to solve; nothing for a lit file.

@@ -1,7 +1,5 @@
 #include "viewer/render/overlay.h"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 
@@ -10,8 +8,9 @@
 namespace fluxwalk::render {
 namespace {
 
-// Blue is what lit rooms have least of.
+// Blue is what lit rooms have least of; coloured faces take a light veil.
 constexpr glm::vec4 kEdgeColor{0.05f, 0.55f, 0.95f, 0.6f};
+constexpr glm::vec4 kEdgeColorOverFaces{1.0f, 1.0f, 1.0f, 0.38f};
 constexpr glm::vec4 kBoxColor{0.98f, 0.72f, 0.25f, 0.9f};
 constexpr glm::vec4 kHiddenBoxColor{0.98f, 0.72f, 0.25f, 0.12f};
 
@@ -20,37 +19,6 @@ std::string withVersion(std::string_view source) {
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> findElementEdges(const scene::LitMesh& mesh,
-                                            const std::vector<std::uint32_t>& elementOf) {
-    struct Edge {
-        std::array<std::uint32_t, 2> ends;
-        std::uint32_t element;
-    };
-    std::vector<Edge> all;
-    all.reserve(mesh.triangles.size());
-    for (std::size_t t = 0; t < elementOf.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = mesh.triangles[3 * t + k];
-            const std::uint32_t b = mesh.triangles[3 * t + (k + 1) % 3];
-            all.push_back({{std::min(a, b), std::max(a, b)}, elementOf[t]});
-        }
-    }
-    std::sort(all.begin(), all.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-    std::vector<std::uint32_t> edges;
-    for (std::size_t begin = 0; begin < all.size();) {
-        std::size_t end = begin;
-        bool isWithin = true;
-        while (end < all.size() && all[end].ends == all[begin].ends) {
-            isWithin = isWithin && all[end++].element == all[begin].element;
-        }
-        if (!isWithin || end - begin == 1) {
-            edges.insert(edges.end(), all[begin].ends.begin(), all[begin].ends.end());
-        }
-        begin = end;
-    }
-    return edges;
-}
 
 Overlay::Overlay(const gl::Functions& gl)
     : gl_(gl),
@@ -139,8 +107,8 @@ void Overlay::drawLines(const Vertices& vertices, const OverlayView& view, const
     gl_.Disable(GL_BLEND);
 }
 
-void Overlay::drawEdges(const OverlayView& view) const {
-    drawLines(edges_, view, kEdgeColor);
+void Overlay::drawEdges(const OverlayView& view, bool isOverFaces) const {
+    drawLines(edges_, view, isOverFaces ? kEdgeColorOverFaces : kEdgeColor);
 }
 
 void Overlay::drawBoxes(const OverlayView& view) const {

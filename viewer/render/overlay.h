@@ -17,10 +17,6 @@ struct FaceColors {
     std::vector<std::uint32_t> edges;  ///< two vertices each
 };
 
-/// Edges between triangles of different elements and at the mesh's border; `elementOf` by triangle.
-std::vector<std::uint32_t> findElementEdges(const scene::LitMesh& mesh,
-                                            const std::vector<std::uint32_t>& elementOf);
-
 /// From where an overlay is seen.
 struct OverlayView {
     glm::mat4 clipFromWorld{1.0f};
@@ -39,7 +35,7 @@ class Overlay {
 
     /// Opaque; `relief` 0 to 1 darkens faces that are seen from the side.
     void drawFaces(const OverlayView& view, float relief) const;
-    void drawEdges(const OverlayView& view) const;
+    void drawEdges(const OverlayView& view, bool isOverFaces) const;
     /// Boxes, what is hidden of them faintly.
     void drawBoxes(const OverlayView& view) const;
 

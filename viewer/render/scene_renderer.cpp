@@ -157,7 +157,7 @@ void SceneRenderer::draw(const scene::Camera& camera, double aspect, const DrawS
         drawLit(camera, matrix, settings);
     }
     if (settings.elementEdges) {
-        overlay_.drawEdges(view);
+        overlay_.drawEdges(view, settings.shown != Shown::picture);
     }
     if (settings.clusterBoxes) {
         overlay_.drawBoxes(view);

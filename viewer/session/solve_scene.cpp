@@ -15,7 +15,10 @@ Solving solveWith(SolverSource source) {
         }
         solve::Callbacks all = callbacks;
         if (source.resumable) {
-            all.resumable = [&](solve::Moment moment) { source.resumable(**solver, moment); };
+            all.resumable = [&](solve::Moment moment) {
+                source.resumable(**solver, moment);
+                callbacks.resumable(moment);
+            };
         }
         return (*solver)->solve(all);
     };

@@ -41,6 +41,14 @@ void SolverSession::setOptions(const solve::Options& options) {
 void SolverSession::setPaused(bool paused) {
     const std::lock_guard lock(mutex_);
     isPaused_ = paused;
+    status_.isStepping = false;
+    changed_.notify_all();
+}
+
+void SolverSession::step() {
+    const std::lock_guard lock(mutex_);
+    isPaused_ = false;
+    status_.isStepping = true;
     changed_.notify_all();
 }
 
@@ -142,6 +150,13 @@ solve::Callbacks SolverSession::makeCallbacks() {
         std::unique_lock lock(mutex_);
         answer(lock);
     };
+    callbacks.resumable = [this](solve::Moment moment) {
+        const std::lock_guard lock(mutex_);
+        if (moment == solve::Moment::level && status_.isStepping) {
+            status_.isStepping = false;
+            isPaused_ = true;
+        }
+    };
     callbacks.shouldStop = [this] {
         const std::lock_guard lock(mutex_);
         return isStopping_ || isPaused_;
@@ -167,6 +182,7 @@ void SolverSession::solveOnce(std::unique_lock<std::mutex>& lock) {
     lock.lock();
     status_.outcome = outcome;
     isUnfinished_ = outcome == solve::Outcome::stopped;
+    status_.isStepping = status_.isStepping && isUnfinished_;
 }
 
 void SolverSession::run() {

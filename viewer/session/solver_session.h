@@ -59,6 +59,7 @@ struct Status {
     solve::Outcome outcome = solve::Outcome::stopped;  ///< of the last solve; valid when finished
     double progress = 0.0;                             ///< in [0, 1], towards the requested error
     std::string stage;
+    bool isStepping = false;  ///< goes on to the end of a level only
     std::exception_ptr failure;
 };
 
@@ -85,6 +86,8 @@ class SolverSession {
     void setOptions(const solve::Options& options);
     solve::Options options() const;
     void setPaused(bool paused);
+    /// Goes on until the end of a level of refinement and pauses there.
+    void step();
     void stop();
 
     /// What snapshots tell from now on; where the solver rests, a new one follows at once.

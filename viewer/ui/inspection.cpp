@@ -19,7 +19,7 @@ using hierarchy::NodeKind;
 
 /// Lines that are drawn at most, and the least part of the light that one must carry.
 constexpr std::size_t kMostLinks = 300;
-constexpr float kLeastPart = 2e-4f;
+constexpr float kLeastPart = 1e-3f;
 constexpr std::size_t kMostContributors = 12;
 constexpr std::size_t kMostPrinted = 20;
 constexpr float kMargin = 14.0f;
@@ -114,7 +114,7 @@ void drawLinks(ImDrawList& list, const image::Inspection& inspection, const Proj
             continue;
         }
         ImVec4 color = colorOf(link.kind);
-        color.w = std::clamp(0.12f + 1.2f * std::sqrt(part), 0.0f, 0.9f);
+        color.w = std::min(1.3f * std::sqrt(part), 0.9f);
         project.line(list, inspection.center, link.source, ImGui::GetColorU32(color),
                      scale * (0.8f + 7.0f * std::sqrt(part)));
     }

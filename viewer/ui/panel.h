@@ -7,6 +7,7 @@
 #include "viewer/render/scene_renderer.h"
 #include "viewer/session/solver_session.h"
 #include "viewer/ui/exposure_control.h"
+#include "viewer/ui/inspection.h"
 #include "viewer/ui/walker.h"
 
 namespace fluxwalk::ui {
@@ -16,6 +17,9 @@ struct ViewSettings {
     ExposureControl exposure;
     /// All but the exposure.
     render::DrawSettings draw;
+    /// Values of the point under the cursor, or of a pinned one.
+    bool isProbing = false;
+    InspectionView inspection;
     bool smoothEdges = true;
     bool isPanelOpen = true;
 };
@@ -39,6 +43,7 @@ struct PanelInfo {
 struct PanelActions {
     bool changedOptions = false;
     bool togglesPause = false;
+    bool steps = false;
     /// Index of a scene camera to go to, -1 for none.
     int camera = -1;
 };
@@ -51,7 +56,7 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
 void drawKeys(bool isCaptured, Movement movement, float scale);
 
 /// Sections of the panel, each in its own file.
-void drawShown(const PanelInfo& info, render::DrawSettings& draw);
+void drawShown(const PanelInfo& info, ViewSettings& settings);
 void drawStatistics(const PanelInfo& info);
 void drawConvergence(const solve::Statistics& statistics, double target, float scale);
 
