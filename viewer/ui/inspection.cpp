@@ -20,10 +20,13 @@ using hierarchy::NodeKind;
 /// Lines that are drawn at most, and the least part of the light that one must carry.
 constexpr std::size_t kMostLinks = 300;
 constexpr float kLeastPart = 1e-3f;
+/// Lines of the list at most, and the part of the picture's height that they may take.
 constexpr std::size_t kMostContributors = 12;
+constexpr float kMostOfHeight = 0.45f;
 constexpr std::size_t kMostPrinted = 20;
 constexpr float kMargin = 14.0f;
 constexpr float kPadding = 10.0f;
+constexpr float kColumnGap = 16.0f;
 
 std::string nameOr(const std::string& name, const char* kind, std::uint32_t index) {
     return name.empty() ? fmt::format("{} {}", kind, index) : name;
@@ -120,49 +123,82 @@ void drawLinks(ImDrawList& list, const image::Inspection& inspection, const Proj
     }
 }
 
-/// Lines of text on a dark field whose corner `anchor` (0 or 1 each) is at a place; kept within the picture.
+/// One line of a field of text.
 struct Line {
     std::string left;
     std::string right;
     bool isDim = false;
     float part = 0.0f;  ///< length of a bar behind the line
 };
-void drawLines(ImDrawList& list, const std::vector<Line>& lines, ImVec2 place, ImVec2 anchor, float scale) {
-    const float padding = kPadding * scale;
-    const float height = 1.2f * ImGui::GetFontSize();
-    const float gap = 16.0f * scale;
-    float left = 0.0f;
-    float right = 0.0f;
-    for (const Line& line : lines) {
-        left = std::max(left, ImGui::CalcTextSize(line.left.c_str()).x);
-        right = std::max(right, ImGui::CalcTextSize(line.right.c_str()).x);
+
+float lineHeight() {
+    return 1.2f * ImGui::GetFontSize();
+}
+
+/// Lines of text on a dark field.
+class TextField {
+  public:
+    TextField(std::vector<Line> lines, float scale)
+        : lines_(std::move(lines)), scale_(scale), padding_(kPadding * scale) {
+        float left = 0.0f;
+        float right = 0.0f;
+        for (const Line& line : lines_) {
+            left = std::max(left, ImGui::CalcTextSize(line.left.c_str()).x);
+            right = std::max(right, ImGui::CalcTextSize(line.right.c_str()).x);
+        }
+        inner_ = left + (right > 0.0f ? kColumnGap * scale + right : 0.0f);
+        size_ = ImVec2(inner_ + 2.0f * padding_,
+                       lineHeight() * static_cast<float>(lines_.size()) + 2.0f * padding_);
     }
-    const float inner = left + (right > 0.0f ? gap + right : 0.0f);
-    const ImVec2 size(inner + 2.0f * padding, height * static_cast<float>(lines.size()) + 2.0f * padding);
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float margin = 4.0f * scale;
-    const ImVec2 lower(
-        std::clamp(place.x - anchor.x * size.x, margin, std::max(margin, display.x - size.x - margin)),
-        std::clamp(place.y - anchor.y * size.y, margin, std::max(margin, display.y - size.y - margin)));
-    list.AddRectFilled(lower, ImVec2(lower.x + size.x, lower.y + size.y),
-                       ImGui::GetColorU32(ImGuiCol_WindowBg, 0.96f), 6.0f * scale);
-    ImVec2 at(lower.x + padding, lower.y + padding);
-    for (const Line& line : lines) {
+
+    const ImVec2& size() const { return size_; }
+    const ImVec2& lower() const { return lower_; }
+
+    /// Puts its upper left corner there, or as near as the picture allows.
+    void moveTo(ImVec2 place) {
+        const ImVec2 display = ImGui::GetIO().DisplaySize;
+        const float margin = 4.0f * scale_;
+        lower_ = ImVec2(std::clamp(place.x, margin, std::max(margin, display.x - size_.x - margin)),
+                        std::clamp(place.y, margin, std::max(margin, display.y - size_.y - margin)));
+    }
+    bool touches(const TextField& other) const {
+        return lower_.x < other.lower_.x + other.size_.x && other.lower_.x < lower_.x + size_.x &&
+               lower_.y < other.lower_.y + other.size_.y && other.lower_.y < lower_.y + size_.y;
+    }
+    void draw(ImDrawList& list) const {
+        list.AddRectFilled(lower_, ImVec2(lower_.x + size_.x, lower_.y + size_.y),
+                           ImGui::GetColorU32(ImGuiCol_WindowBg, 0.96f), 6.0f * scale_);
+        ImVec2 at(lower_.x + padding_, lower_.y + padding_);
+        for (const Line& line : lines_) {
+            drawLine(list, line, at);
+            at.y += lineHeight();
+        }
+    }
+
+  private:
+    void drawLine(ImDrawList& list, const Line& line, const ImVec2& at) const {
         if (line.part > 0.0f) {
             ImVec4 bar = kAccent;
             bar.w = 0.28f;
+            const float left = at.x - 0.4f * padding_;
             list.AddRectFilled(
-                ImVec2(at.x - 0.4f * padding, at.y - 0.05f * height),
-                ImVec2(at.x - 0.4f * padding + line.part * (inner + 0.8f * padding), at.y + 0.9f * height),
-                ImGui::GetColorU32(bar), 2.0f * scale);
+                ImVec2(left, at.y - 0.05f * lineHeight()),
+                ImVec2(left + line.part * (inner_ + 0.8f * padding_), at.y + 0.9f * lineHeight()),
+                ImGui::GetColorU32(bar), 2.0f * scale_);
         }
         const ImU32 color = line.isDim ? ImGui::GetColorU32(kTextDim) : ImGui::GetColorU32(ImGuiCol_Text);
         list.AddText(at, color, line.left.c_str());
         const float width = ImGui::CalcTextSize(line.right.c_str()).x;
-        list.AddText(ImVec2(at.x + inner - width, at.y), color, line.right.c_str());
-        at.y += height;
+        list.AddText(ImVec2(at.x + inner_ - width, at.y), color, line.right.c_str());
     }
-}
+
+    std::vector<Line> lines_;
+    float scale_;
+    float padding_;
+    float inner_ = 0.0f;
+    ImVec2 size_;
+    ImVec2 lower_;
+};
 
 std::vector<Line> readout(const image::Inspection& i, const scene::Scene& scene) {
     const base::Rgb& e = i.irradiance;
@@ -181,17 +217,19 @@ std::vector<Line> listContributors(const image::Inspection& inspection, const sc
     std::vector<Line> lines{{"What lights this point", formatValue(value(inspection.irradiance)) + " lx"}};
     const auto part = [&](double lux) { return static_cast<float>(std::clamp(lux / total, 0.0, 1.0)); };
     double rest = 0.0;
+    const float room = kMostOfHeight * ImGui::GetIO().DisplaySize.y / lineHeight() - 2.0f;
+    const std::size_t most = std::min(kMostContributors, static_cast<std::size_t>(std::max(room, 3.0f)));
     for (std::size_t k = 0; k < inspection.contributors.size(); ++k) {
         const image::Contributor& c = inspection.contributors[k];
         const double lux = value(c.irradiance);
-        if (k < kMostContributors) {
+        if (k < most) {
             lines.push_back({nameOf(c, scene), formatPercent(lux / total), false, part(lux)});
         } else {
             rest += lux;
         }
     }
-    if (inspection.contributors.size() > kMostContributors) {
-        lines.push_back({fmt::format("{} others", inspection.contributors.size() - kMostContributors),
+    if (inspection.contributors.size() > most) {
+        lines.push_back({fmt::format("{} others", inspection.contributors.size() - most),
                          formatPercent(rest / total), true, part(rest)});
     }
     return lines;
@@ -233,17 +271,24 @@ void drawInspection(const image::Inspection& inspection, const scene::Scene& sce
         project.line(list, inspection.outline[k], inspection.outline[(k + 1) % inspection.outline.size()],
                      outline, 1.5f * scale);
     }
+    std::optional<TextField> contributors;
+    if (view.contributors) {
+        contributors.emplace(listContributors(inspection, scene), scale);
+        const float margin = kMargin * scale;
+        contributors->moveTo(ImVec2(ImGui::GetIO().DisplaySize.x - contributors->size().x - margin, margin));
+        contributors->draw(list);
+    }
     if (const auto place = project(base::Vec3(inspection.point.position))) {
         list.AddCircle(*place, 4.0f * scale, IM_COL32_BLACK, 0, 3.0f * scale);
         list.AddCircle(*place, 4.0f * scale, IM_COL32_WHITE, 0, 1.5f * scale);
+        TextField values(readout(inspection, scene), scale);
         const float away = 14.0f * scale;
-        drawLines(list, readout(inspection, scene), ImVec2(place->x + away, place->y + away), ImVec2(0, 0),
-                  scale);
-    }
-    if (view.contributors) {
-        const float margin = kMargin * scale;
-        drawLines(list, listContributors(inspection, scene),
-                  ImVec2(ImGui::GetIO().DisplaySize.x - margin, margin), ImVec2(1, 0), scale);
+        values.moveTo(ImVec2(place->x + away, place->y + away));
+        if (contributors && values.touches(*contributors)) {
+            values.moveTo(ImVec2(place->x - away - values.size().x,
+                                 std::max(place->y + away, contributors->lower().y)));
+        }
+        values.draw(list);
     }
 }
 
