@@ -116,6 +116,9 @@ image::Inspection inspectPixel(const solve::Problem& problem, const scene::Camer
 
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     cli::requireWritable(file);
+    if ((arguments.look.inspection.links || arguments.look.inspection.contributors) && !arguments.look.pick) {
+        throw base::UsageError("--overlay links and --overlay contributors need the point of --pick X,Y");
+    }
     // All that can fail before the solving, which may take long.
     const std::unique_ptr<gl::Context> context = makeContext(arguments.gl);
     Shown shown;
@@ -157,6 +160,7 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
     Exhibit exhibit;
     Shown shown;
     if (isLit(arguments.scene.scene)) {
+        requireNoSolution(arguments.look);
         shown = loadLit(arguments.scene.scene);
     } else {
         const auto checkpointing = std::make_shared<cli::Checkpointing>(arguments.solver);
