@@ -90,7 +90,7 @@ const std::vector<Case>& allCases() {
         showing("objects", render::Shown::objects),
         overlaying("elements", true, false),
         overlaying("clusters", false, true),
-        {"vases-pick", "vases", {}, base::Vec2d(280.0, 125.0)},
+        {"vases-pick", "vases", {}, base::Vec2d(300.0, 125.0)},
     };
     return cases;
 }

@@ -20,7 +20,8 @@ constexpr float kPlainHeight = 720.0f;
 constexpr float kLeastScale = 0.75f;
 constexpr float kLargestScale = 4.0f;
 
-void drawOver(const gl::Functions& gl, gl::PixelSize size, const std::function<void(float scale)>& draw) {
+void drawOver(const gl::Functions& gl, gl::PixelSize size,
+              const std::function<void(const ui::Canvas&)>& draw) {
     const float scale =
         std::clamp(static_cast<float>(size.height) / kPlainHeight, kLeastScale, kLargestScale);
     const ui::ImguiContext imgui(scale);
@@ -29,7 +30,7 @@ void drawOver(const gl::Functions& gl, gl::PixelSize size, const std::function<v
     io.DisplaySize = ImVec2(static_cast<float>(size.width), static_cast<float>(size.height));
     io.DeltaTime = 1.0f;
     ImGui::NewFrame();
-    draw(scale);
+    draw({scale});
     ImGui::Render();
     renderer.draw(*ImGui::GetDrawData());
 }
@@ -52,12 +53,12 @@ std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_pt
     renderer.draw(camera, static_cast<double>(size.width) / size.height, look);
     target.resolve();
     if (legend || inspected.inspection != nullptr) {
-        drawOver(gl, size, [&](float scale) {
+        drawOver(gl, size, [&](const ui::Canvas& canvas) {
             if (inspected.inspection != nullptr) {
-                ui::drawInspection(*inspected.inspection, *scene, camera, inspected.view, scale);
+                ui::drawInspection(*inspected.inspection, *scene, camera, inspected.view, canvas);
             }
             if (legend) {
-                ui::drawLegend(*legend, scale);
+                ui::drawLegend(*legend, canvas);
             }
         });
     }

@@ -31,6 +31,8 @@ constexpr double kFollowingPart = 0.25;
 /// Seconds after the last movement when a software picture gets its smooth edges back.
 constexpr double kStandstill = 0.3;
 constexpr int kSamples = 4;
+/// What the line of keys takes of the lower edge, at 96 dpi.
+constexpr float kKeysHeight = 58.0f;
 /// A camera so many metres above a floor is a person who stands there and will want to walk.
 constexpr double kLowestEyes = 0.8;
 constexpr double kHighestEyes = 2.3;
@@ -176,7 +178,7 @@ void Walkthrough::inspect(bool isClicked) {
     inspector_.update(*session_, frame);
     if (const image::Inspection* inspection = inspector_.inspection()) {
         ui::drawInspection(*inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
-                           imgui_.scale());
+                           {imgui_.scale(), kKeysHeight * imgui_.scale()});
     }
 }
 
@@ -297,11 +299,12 @@ void Walkthrough::drawInterface() {
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
     inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse);
+    const ui::Canvas canvas{scale, kKeysHeight * scale};
     if (faceLegend_) {
-        ui::drawLegend(*faceLegend_, scale);
+        ui::drawLegend(*faceLegend_, canvas);
     } else if (settings_.draw.shown == render::Shown::illuminance ||
                settings_.draw.shown == render::Shown::luminance) {
-        ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), scale);
+        ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), canvas);
     }
     ui::drawKeys(mouse_.isCaptured(), walker_.movement, scale);
     if (session_ && actions.changedOptions) {

@@ -22,11 +22,13 @@ constexpr std::size_t kMostLinks = 300;
 constexpr float kLeastPart = 1e-3f;
 /// Lines of the list at most, and the part of the picture's height that they may take.
 constexpr std::size_t kMostContributors = 12;
-constexpr float kMostOfHeight = 0.45f;
+constexpr float kMostOfHeight = 0.4f;
 constexpr std::size_t kMostPrinted = 20;
 constexpr float kMargin = 14.0f;
 constexpr float kPadding = 10.0f;
 constexpr float kColumnGap = 16.0f;
+/// Readouts of points beyond this part of the picture's width are to their left.
+constexpr float kLeftOf = 0.6f;
 
 std::string nameOr(const std::string& name, const char* kind, std::uint32_t index) {
     return name.empty() ? fmt::format("{} {}", kind, index) : name;
@@ -138,32 +140,31 @@ float lineHeight() {
 /// Lines of text on a dark field.
 class TextField {
   public:
-    TextField(std::vector<Line> lines, float scale)
-        : lines_(std::move(lines)), scale_(scale), padding_(kPadding * scale) {
+    TextField(std::vector<Line> lines, const Canvas& canvas)
+        : lines_(std::move(lines)),
+          scale_(canvas.scale),
+          reserved_(canvas.reserved),
+          padding_(kPadding * canvas.scale) {
         float left = 0.0f;
         float right = 0.0f;
         for (const Line& line : lines_) {
             left = std::max(left, ImGui::CalcTextSize(line.left.c_str()).x);
             right = std::max(right, ImGui::CalcTextSize(line.right.c_str()).x);
         }
-        inner_ = left + (right > 0.0f ? kColumnGap * scale + right : 0.0f);
+        inner_ = left + (right > 0.0f ? kColumnGap * scale_ + right : 0.0f);
         size_ = ImVec2(inner_ + 2.0f * padding_,
                        lineHeight() * static_cast<float>(lines_.size()) + 2.0f * padding_);
     }
 
     const ImVec2& size() const { return size_; }
-    const ImVec2& lower() const { return lower_; }
 
     /// Puts its upper left corner there, or as near as the picture allows.
     void moveTo(ImVec2 place) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         const float margin = 4.0f * scale_;
-        lower_ = ImVec2(std::clamp(place.x, margin, std::max(margin, display.x - size_.x - margin)),
-                        std::clamp(place.y, margin, std::max(margin, display.y - size_.y - margin)));
-    }
-    bool touches(const TextField& other) const {
-        return lower_.x < other.lower_.x + other.size_.x && other.lower_.x < lower_.x + size_.x &&
-               lower_.y < other.lower_.y + other.size_.y && other.lower_.y < lower_.y + size_.y;
+        lower_ =
+            ImVec2(std::clamp(place.x, margin, std::max(margin, display.x - size_.x - margin)),
+                   std::clamp(place.y, margin, std::max(margin, display.y - reserved_ - size_.y - margin)));
     }
     void draw(ImDrawList& list) const {
         list.AddRectFilled(lower_, ImVec2(lower_.x + size_.x, lower_.y + size_.y),
@@ -194,6 +195,7 @@ class TextField {
 
     std::vector<Line> lines_;
     float scale_;
+    float reserved_;
     float padding_;
     float inner_ = 0.0f;
     ImVec2 size_;
@@ -260,7 +262,8 @@ std::string describeInspection(const image::Inspection& i, const scene::Scene& s
 }
 
 void drawInspection(const image::Inspection& inspection, const scene::Scene& scene,
-                    const scene::Camera& camera, const InspectionView& view, float scale) {
+                    const scene::Camera& camera, const InspectionView& view, const Canvas& canvas) {
+    const float scale = canvas.scale;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const Projection project(camera);
     if (view.links) {
@@ -271,23 +274,21 @@ void drawInspection(const image::Inspection& inspection, const scene::Scene& sce
         project.line(list, inspection.outline[k], inspection.outline[(k + 1) % inspection.outline.size()],
                      outline, 1.5f * scale);
     }
-    std::optional<TextField> contributors;
+    const float width = ImGui::GetIO().DisplaySize.x;
     if (view.contributors) {
-        contributors.emplace(listContributors(inspection, scene), scale);
+        TextField contributors(listContributors(inspection, scene), canvas);
         const float margin = kMargin * scale;
-        contributors->moveTo(ImVec2(ImGui::GetIO().DisplaySize.x - contributors->size().x - margin, margin));
-        contributors->draw(list);
+        contributors.moveTo(ImVec2(width - contributors.size().x - margin, margin));
+        contributors.draw(list);
     }
     if (const auto place = project(base::Vec3(inspection.point.position))) {
         list.AddCircle(*place, 4.0f * scale, IM_COL32_BLACK, 0, 3.0f * scale);
         list.AddCircle(*place, 4.0f * scale, IM_COL32_WHITE, 0, 1.5f * scale);
-        TextField values(readout(inspection, scene), scale);
+        TextField values(readout(inspection, scene), canvas);
         const float away = 14.0f * scale;
-        values.moveTo(ImVec2(place->x + away, place->y + away));
-        if (contributors && values.touches(*contributors)) {
-            values.moveTo(ImVec2(place->x - away - values.size().x,
-                                 std::max(place->y + away, contributors->lower().y)));
-        }
+        // Towards the middle: lists and legends are at the right edge.
+        const bool isLeft = place->x > kLeftOf * width;
+        values.moveTo(ImVec2(isLeft ? place->x - away - values.size().x : place->x + away, place->y + away));
         values.draw(list);
     }
 }

@@ -4,7 +4,7 @@
 
 #include "core/image/inspect.h"
 #include "core/scene/scene.h"
-#include "viewer/gl/pixel_size.h"
+#include "viewer/ui/legend.h"
 
 namespace fluxwalk::ui {
 
@@ -20,6 +20,6 @@ std::string describeInspection(const image::Inspection& inspection, const scene:
 /// Draws over a picture as seen by `camera`: the element's outline and links, a small readout beside the
 /// point, and what lights it as a list in the upper right corner.
 void drawInspection(const image::Inspection& inspection, const scene::Scene& scene,
-                    const scene::Camera& camera, const InspectionView& view, float scale);
+                    const scene::Camera& camera, const InspectionView& view, const Canvas& canvas);
 
 }  // namespace fluxwalk::ui

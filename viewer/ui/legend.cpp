@@ -13,7 +13,7 @@ namespace {
 constexpr float kBarWidth = 20.0f;
 constexpr float kBarHeight = 300.0f;
 /// Part of the picture's height that the bar takes at most.
-constexpr float kMostOfHeight = 0.55f;
+constexpr float kMostOfHeight = 0.4f;
 constexpr float kPadding = 12.0f;
 constexpr float kGap = 6.0f;
 constexpr float kTick = 4.0f;
@@ -49,7 +49,8 @@ Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange
     return legend;
 }
 
-void drawLegend(const Legend& legend, float scale) {
+void drawLegend(const Legend& legend, const Canvas& canvas) {
+    const float scale = canvas.scale;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
     const float barWidth = kBarWidth * scale;
@@ -62,7 +63,7 @@ void drawLegend(const Legend& legend, float scale) {
     const ImVec2 title = ImGui::CalcTextSize(legend.title.c_str());
     const float inner = std::max(title.x, barWidth + (kTick + kGap) * scale + labelWidth);
     const ImVec2 size(inner + 2.0f * padding, title.y + barHeight + font + 2.0f * padding);
-    const ImVec2 lower(display.x - size.x - padding, 0.5f * (display.y - size.y));
+    const ImVec2 lower(display.x - size.x - padding, display.y - canvas.reserved - size.y - padding);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(lower, ImVec2(lower.x + size.x, lower.y + size.y),
                        ImGui::GetColorU32(ImGuiCol_WindowBg, 0.96f), 6.0f * scale);

@@ -7,6 +7,12 @@
 
 namespace fluxwalk::ui {
 
+/// Where things are drawn over a picture.
+struct Canvas {
+    float scale = 1.0f;     ///< 1 at 96 dpi
+    float reserved = 0.0f;  ///< height in pixels at the lower edge that is kept free
+};
+
 /// What the colours of a picture mean.
 struct Legend {
     struct Mark {
@@ -24,7 +30,7 @@ struct Legend {
 Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange& range,
                   const render::ColorMap& map);
 
-/// Draws it at the right edge of the picture. Labels that would touch are left out. `scale` is 1 at 96 dpi.
-void drawLegend(const Legend& legend, float scale);
+/// Draws it in the lower right corner of the picture. Labels that would touch are left out.
+void drawLegend(const Legend& legend, const Canvas& canvas);
 
 }  // namespace fluxwalk::ui
