@@ -40,6 +40,7 @@ std::vector<Contributor> rankContributors(const solve::Problem& problem,
         sums.try_emplace({kind, index}, 0.0).first->second += c.irradiance;
     }
     std::vector<Contributor> result;
+    result.reserve(sums.size());
     for (const auto& [key, sum] : sums) {
         result.push_back({key.first, key.second, base::Rgb(sum)});
     }

@@ -71,16 +71,18 @@ std::vector<double> roundNumbers(const ValueRange& range, ValueScale scale) {
     std::vector<double> numbers;
     if (scale == ValueScale::linear) {
         const double step = roundStep(range);
-        const double slack = kSlack * (range.most - range.least);
-        for (double i = std::ceil((range.least - slack) / step); i * step <= range.most + slack; ++i) {
-            // Adding 0 makes 0 of -0.
-            numbers.push_back(i * step + 0.0);
+        const auto first = static_cast<long>(std::ceil(range.least / step - kSlack));
+        const auto last = static_cast<long>(std::floor(range.most / step + kSlack));
+        for (long i = first; i <= last; ++i) {
+            numbers.push_back(static_cast<double>(i) * step);
         }
         return numbers;
     }
-    for (double power = powerBelow(range.least); power <= range.most * (1.0 + kSlack); power *= 10.0) {
+    const auto first = static_cast<int>(std::floor(std::log10(range.least) + kSlack));
+    const auto last = static_cast<int>(std::floor(std::log10(range.most) + kSlack));
+    for (int decade = first; decade <= last; ++decade) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const double number = kRound[i] * power;
+            const double number = kRound[i] * std::pow(10.0, decade);
             if (number >= range.least * (1.0 - kSlack) && number <= range.most * (1.0 + kSlack)) {
                 numbers.push_back(number);
             }
