@@ -12,10 +12,13 @@ std::shared_ptr<const Snapshot> Publisher::make(const Detail& detail, bool isFin
         const std::vector<float> residuals =
             detail.residuals ? computeResiduals(problem_) : std::vector<float>{};
         const std::vector<const display::CellTable*> tables = display_.tables();
-        for (std::size_t i = 0; i < snapshot->meshes.size(); ++i) {
-            snapshot->elements.push_back(std::make_shared<const MeshElements>(
-                describeElements(problem_, *snapshot->meshes[i], *tables[i], residuals)));
-        }
+        snapshot->elements.resize(snapshot->meshes.size());
+        problem_.executor.forRange(tables.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                snapshot->elements[i] = std::make_shared<const MeshElements>(
+                    describeElements(problem_, *snapshot->meshes[i], *tables[i], residuals));
+            }
+        });
     }
     if (detail.clusters) {
         if (clusters_ == nullptr) {
