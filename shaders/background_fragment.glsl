@@ -2,7 +2,7 @@
 
 in vec3 direction;
 
-uniform vec3 skyLuminance;  // cd/m2, zero for none
+uniform vec3 skyLuminance;  // cd/m2, zero for none and where light is not what is shown
 
 out vec4 color;
 

@@ -1,7 +1,5 @@
 #include "core/image/sensors.h"
 
-#include "core/solve/point_gather.h"
-
 namespace fluxwalk::image {
 
 namespace {
@@ -11,9 +9,11 @@ using base::Vec3d;
 /// A sensor this close to a surface along its normal, as a part of the scene's extent, sits on it.
 constexpr double kCapture = 1e-3;
 
-// Nearest side that faces along the sensor's normal, within the capture distance before or behind it.
-std::optional<solve::GatherPoint> capture(const solve::Problem& problem, const scene::Sensor& sensor,
-                                          double reach) {
+}  // namespace
+
+std::optional<solve::GatherPoint> findSurfacePoint(const solve::Problem& problem,
+                                                   const scene::Sensor& sensor) {
+    const double reach = kCapture * problem.scene->bounds().diagonal();
     // From above, looking back along the normal: what is met first is the side that the sensor lies on.
     const Vec3d from = sensor.position + reach * sensor.normal;
     const rays::Ray ray{base::Vec3(from), 0.0f, base::Vec3(-sensor.normal), static_cast<float>(2.0 * reach)};
@@ -37,15 +37,12 @@ std::optional<solve::GatherPoint> capture(const solve::Problem& problem, const s
     return solve::GatherPoint{*leaf, p.position, normal};
 }
 
-}  // namespace
-
 std::vector<base::Rgb> measure(const solve::Solver& solver, std::span<const scene::Sensor> sensors) {
     const solve::Problem& problem = solver.problem();
-    const double reach = kCapture * problem.scene->bounds().diagonal();
     std::vector<base::Rgb> values(sensors.size());
     problem.executor.forRange(sensors.size(), 2, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const auto point = capture(problem, sensors[i], reach);
+            const auto point = findSurfacePoint(problem, sensors[i]);
             values[i] = point ? solve::gatherAtPoint(problem, *point)
                               : solve::gatherInSpace(problem, sensors[i].position, sensors[i].normal);
         }

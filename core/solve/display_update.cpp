@@ -109,6 +109,16 @@ scene::LitMeshes DisplayUpdate::refresh() {
     return all;
 }
 
+std::vector<const display::CellTable*> DisplayUpdate::tables() const {
+    std::vector<const display::CellTable*> all;
+    for (const display::DisplayMeshes& object : meshes_) {
+        for (const display::CellTable& table : object.tables) {
+            all.push_back(&table);
+        }
+    }
+    return all;
+}
+
 std::vector<Rgb> DisplayUpdate::valuesAt(const std::vector<Probe>& probes) {
     // What is refined for the eye carries the same light.
     rebuild(base::kPi);

@@ -14,6 +14,9 @@ class DisplayUpdate {
     /// Meshes of the present solution, in the order of the objects.
     scene::LitMeshes refresh();
 
+    /// Where the cells of these meshes are; until the next refresh().
+    std::vector<const display::CellTable*> tables() const;
+
     /// Displayed irradiance at probes; refreshes first.
     std::vector<Rgb> valuesAt(const std::vector<Probe>& probes);
 

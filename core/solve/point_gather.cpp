@@ -32,8 +32,10 @@ constexpr unsigned kClusterRays = 16;
 
 class PointGather {
   public:
-    PointGather(const Problem& problem, const Vec3d& position, const Vec3d& normal)
+    PointGather(const Problem& problem, const Vec3d& position, const Vec3d& normal,
+                std::vector<Contribution>* contributions = nullptr)
         : problem_(problem),
+          contributions_(contributions),
           h_(problem.hierarchy),
           x_(position),
           n_(normal),
@@ -65,6 +67,13 @@ class PointGather {
     }
 
   private:
+    void deposit(NodeId source, const Vec3d& irradiance) {
+        sum_ += irradiance;
+        if (contributions_ != nullptr) {
+            contributions_->push_back({source, irradiance});
+        }
+    }
+
     // Clusters that cannot matter much are sampled, others opened.
     void addCluster(NodeId source, bool isOpen) {
         const hierarchy::Shape& shape = h_.shape(source);
@@ -90,6 +99,7 @@ class PointGather {
         base::RandomStream random(base::combine(key_, h_.key(source)));
         std::array<rays::Ray, kClusterRays> bundle;
         std::array<Vec3d, kClusterRays> sent{};
+        std::array<NodeId, kClusterRays> senders{};
         std::array<std::uint8_t, kClusterRays> blocked{};
         unsigned used = 0;
         for (unsigned k = 0; k < kClusterRays; ++k) {
@@ -101,8 +111,9 @@ class PointGather {
             if (cosines > 0.0) {
                 const double r2 = glm::dot(d, d);
                 const double part = static_cast<double>(shape.exposedArea()) / kClusterRays;
+                senders[used] = h_.patches()[at.patch];
                 sent[used] = at.point.measure * part * cosines / (base::kPi * r2 * r2) *
-                             Vec3d(h_.light(h_.patches()[at.patch]).radiosity);
+                             Vec3d(h_.light(senders[used]).radiosity);
                 bundle[used++] = problem_.rays.segment(x_, n_, at.point.position, at.point.normal);
             }
         }
@@ -110,7 +121,9 @@ class PointGather {
             problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
         }
         for (unsigned k = 0; k < used; ++k) {
-            sum_ += blocked[k] != 0 ? Vec3d(0.0) : sent[k];
+            if (blocked[k] == 0) {
+                deposit(senders[k], sent[k]);
+            }
         }
     }
 
@@ -141,7 +154,7 @@ class PointGather {
             return;
         }
         const double visibility = isOpen ? 1.0 : sampleVisibility(source, contribution);
-        sum_ += factor * visibility * Vec3d(light.radiosity);
+        deposit(source, factor * visibility * Vec3d(light.radiosity));
     }
 
     // Part of the source's kernel at the point that comes from its exposed cells.
@@ -212,7 +225,7 @@ class PointGather {
         if (light.kind == scene::LightKind::directional) {
             const double cosine = -glm::dot(n_, light.direction);
             if (cosine > 0.0 && !problem_.rays.isOccluded(problem_.rays.halfLine(x_, n_, -light.direction))) {
-                sum_ += cosine * Vec3d(light.intensity);
+                deposit(source, cosine * Vec3d(light.intensity));
             }
             return;
         }
@@ -221,7 +234,7 @@ class PointGather {
         const double cosine = glm::dot(n_, d) / std::sqrt(r2);
         if (cosine > 0.0 && scene::reaches(light, r2) &&
             !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
-            sum_ += cosine / r2 * Vec3d(scene::intensityToward(light, -glm::normalize(d)));
+            deposit(source, cosine / r2 * Vec3d(scene::intensityToward(light, -glm::normalize(d))));
         }
     }
 
@@ -255,11 +268,12 @@ class PointGather {
             }
         }
         if (all > 0) {
-            sum_ += 0.5 * (1.0 + n_.y) * seen / all * Vec3d(h_.light(source).radiosity);
+            deposit(source, 0.5 * (1.0 + n_.y) * seen / all * Vec3d(h_.light(source).radiosity));
         }
     }
 
     const Problem& problem_;
+    std::vector<Contribution>* contributions_;
     const Hierarchy& h_;
     Vec3d x_;
     Vec3d n_;
@@ -270,9 +284,10 @@ class PointGather {
 
 }  // namespace
 
-Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point) {
+Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point,
+                  std::vector<Contribution>* contributions) {
     const Hierarchy& h = problem.hierarchy;
-    PointGather gather(problem, point.position, point.normal);
+    PointGather gather(problem, point.position, point.normal, contributions);
     for (NodeId id = point.leaf; id != NodeId::none; id = h.parent(id)) {
         for (const std::uint32_t l : problem.links.endingAt(id)) {
             const hierarchy::Link& link = problem.links.links[l];

@@ -27,13 +27,11 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Run::Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, LoopState& loop,
-         std::uint64_t& sequence)
+Run::Run(Problem& problem, const Callbacks& callbacks, LoopState& loop, Publisher& publisher)
     : problem_(problem),
-      display_(display),
       callbacks_(callbacks),
       loop_(loop),
-      sequence_(sequence),
+      publisher_(publisher),
       before_(problem.statistics.times.total) {}
 
 void Run::takeNewOptions() {
@@ -88,6 +86,9 @@ void Run::sweep(int most, double residual) {
         if (statistics.residual <= residual) {
             loop_.sweeps = most;
         }
+        if (callbacks_.settled) {
+            callbacks_.settled();
+        }
         if (loop_.sweeps >= kSweepsAfterStop && isStopped()) {
             break;
         }
@@ -103,18 +104,13 @@ void Run::audit(std::size_t rays) {
 void Run::publish(bool isFinished) {
     problem_.statistics.times.total = seconds();
     const double wait = std::max(kPublishInterval, kPublishShare * publishTime_);
-    const bool isTooEarly =
-        sequence_ > 0 ? secondsSince(published_) < wait : problem_.statistics.residual > kFirstResidual;
+    const bool isTooEarly = publisher_.count() > 0 ? secondsSince(published_) < wait
+                                                   : problem_.statistics.residual > kFirstResidual;
     if (!callbacks_.publish || (!isFinished && isTooEarly)) {
         return;
     }
     const Clock::time_point start = Clock::now();
-    auto snapshot = std::make_shared<Snapshot>();
-    snapshot->sequence = ++sequence_;
-    snapshot->meshes = display_.refresh();
-    snapshot->statistics = problem_.statistics;
-    snapshot->finished = isFinished;
-    callbacks_.publish(std::move(snapshot));
+    callbacks_.publish(publisher_.make(callbacks_.detail ? callbacks_.detail() : Detail{}, isFinished));
     published_ = Clock::now();
     publishTime_ = secondsSince(start);
 }

@@ -3,16 +3,14 @@
 #include <chrono>
 
 #include "core/solve/checkpoint.h"
-#include "core/solve/display_update.h"
-#include "core/solve/solver.h"
+#include "core/solve/publisher.h"
 
 namespace fluxwalk::solve {
 
 /// One call of Solver::solve: its clock, its stops and whom it tells.
 class Run {
   public:
-    Run(Problem& problem, DisplayUpdate& display, const Callbacks& callbacks, LoopState& loop,
-        std::uint64_t& sequence);
+    Run(Problem& problem, const Callbacks& callbacks, LoopState& loop, Publisher& publisher);
 
     /// Asked between waves and sweeps: takes new options over, tells that the solve could go on from here,
     /// and returns whether what is at work shall end.
@@ -42,10 +40,9 @@ class Run {
     using Clock = std::chrono::steady_clock;
 
     Problem& problem_;
-    DisplayUpdate& display_;
     const Callbacks& callbacks_;
     LoopState& loop_;
-    std::uint64_t& sequence_;
+    Publisher& publisher_;
     double before_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point published_{};

@@ -63,7 +63,8 @@ struct Solver::State {
           probes(drawProbes(problem, kProbeCount, options.seed)),
           base(roundUp(base::residentMemory())),
           machineLimit(base + base::availableMemory() / 4 * 3),
-          builtNodes(problem.hierarchy.nodeCount()) {}
+          builtNodes(problem.hierarchy.nodeCount()),
+          publisher(problem, display) {}
 
     // What the present options allow.
     Budget budget() const {
@@ -85,7 +86,7 @@ struct Solver::State {
     std::uint64_t machineLimit;  ///< bytes, where the options name no limit
     std::size_t builtNodes;
     LoopState loop;
-    std::uint64_t sequence = 0;
+    Publisher publisher;
 };
 
 Solver::Solver(std::shared_ptr<const scene::Scene> scene, const Options& options, unsigned threads) {
@@ -122,6 +123,9 @@ void Solver::restore(const base::NamedArrays& arrays, const std::string& file) {
 }
 std::uint64_t Solver::countBytes() const {
     return state_->bytes();
+}
+std::shared_ptr<const Snapshot> Solver::show(const Detail& detail) {
+    return state_->publisher.make(detail, true);
 }
 scene::LitMeshes Solver::litMeshes() const {
     return state_->display.refresh();
@@ -183,7 +187,7 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     State& state = *state_;
     Problem& problem = state.problem;
     Statistics& statistics = problem.statistics;
-    Run run(problem, state.display, callbacks, state.loop, state.sequence);
+    Run run(problem, callbacks, state.loop, state.publisher);
     if (!state.loop.isStarted) {
         start();
     }

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/scene/lit_mesh.h"
 #include "core/scene/scene.h"
+#include "core/solve/elements.h"
 #include "core/solve/options.h"
 #include "core/solve/statistics.h"
 
@@ -22,7 +23,10 @@ struct Snapshot {
     std::uint64_t sequence = 0;
     scene::LitMeshes meshes;
     Statistics statistics;
-    bool finished = false;
+    bool finished = false;  ///< the solver rests
+    /// As far as Callbacks::detail asks for them. Elements are parallel to the meshes.
+    std::vector<std::shared_ptr<const MeshElements>> elements;
+    std::shared_ptr<const std::vector<ClusterBox>> clusters;
 };
 
 /// Why solve() returned.
@@ -45,6 +49,10 @@ enum class Moment : std::uint8_t {
 struct Callbacks {
     /// Gets a snapshot after sweeps, at most ten a second, and one at the end.
     std::function<void(std::shared_ptr<const Snapshot>)> publish;
+    /// What snapshots shall tell beside the light.
+    std::function<Detail()> detail;
+    /// Called after sweeps, when links and light agree: what looks at the solver then sees a whole state.
+    std::function<void()> settled;
     /// Asked at wave boundaries; true ends the solve with what it has.
     std::function<bool()> shouldStop;
     /// Asked at wave boundaries; new options take effect there (error, oracle, threshold, minArea).
@@ -79,6 +87,8 @@ class Solver {
     /// What the solve takes now, as the memory limit counts it: all that it holds, and what refining,
     /// sweeping and showing take on the way.
     std::uint64_t countBytes() const;
+    /// The present solution, while it is not being solved or from Callbacks::settled.
+    std::shared_ptr<const Snapshot> show(const Detail& detail);
     /// Display meshes of the present solution, for all objects.
     scene::LitMeshes litMeshes() const;
 

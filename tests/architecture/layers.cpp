@@ -33,11 +33,13 @@ const std::vector<Layer> kLayers = {
       "core/transport", "core/display", "core/solve", "core/image"}},
     {"viewer/gl", {"core/base"}},
     {"viewer/render", {"viewer/gl", "core/base", "core/scene"}},
-    {"viewer/session", {"core/base", "core/scene", "core/solve"}},
-    {"viewer/ui", {"viewer/gl", "viewer/render", "viewer/session", "core/base", "core/scene", "core/solve"}},
+    {"viewer/session", {"core/base", "core/scene", "core/rays", "core/solve", "core/image"}},
+    {"viewer/ui",
+     {"viewer/gl", "viewer/render", "viewer/session", "core/base", "core/scene", "core/rays", "core/solve",
+      "core/image"}},
     {"viewer/app",
      {"viewer/gl", "viewer/render", "viewer/session", "viewer/ui", "core/base", "core/surface", "core/scene",
-      "core/rays", "core/io", "core/solve", "core/cli"}},
+      "core/rays", "core/io", "core/solve", "core/image", "core/cli"}},
     {"viewer", {"viewer/app", "core/cli"}},
 };
 

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <stb/stb_image.h>
@@ -9,7 +12,9 @@
 #include "core/io/image_write.h"
 #include "core/scene/builders.h"
 #include "core/solve/solver.h"
+#include "viewer/app/overlays.h"
 #include "viewer/app/screenshot.h"
+#include "viewer/app/sight.h"
 
 namespace fluxwalk {
 namespace {
@@ -47,8 +52,51 @@ Difference compare(const std::vector<std::uint8_t>& a, const std::uint8_t* b) {
     return result;
 }
 
+/// One picture: a camera of the gallery, and what is shown.
+struct Case {
+    std::string name;
+    std::string camera;
+    render::DrawSettings look{};
+    std::optional<base::Vec2d> pick{};
+};
+
+void PrintTo(const Case& one, std::ostream* out) {
+    *out << one.name;
+}
+
+Case showing(const std::string& name, render::Shown shown, render::ValueScale scale = {}) {
+    Case one{"vases-" + name, "vases"};
+    one.look.shown = shown;
+    one.look.scale = scale;
+    return one;
+}
+
+Case overlaying(const std::string& name, bool elements, bool clusters) {
+    Case one{"vases-" + name, "vases"};
+    one.look.elementEdges = elements;
+    one.look.clusterBoxes = clusters;
+    one.look.clusterDepth = 7;
+    return one;
+}
+
+const std::vector<Case>& allCases() {
+    static const std::vector<Case> cases{
+        {"entrance", "entrance"},
+        {"torus", "torus"},
+        {"vases", "vases"},
+        showing("lux", render::Shown::illuminance),
+        showing("luminance", render::Shown::luminance, render::ValueScale::linear),
+        showing("level", render::Shown::level),
+        showing("objects", render::Shown::objects),
+        overlaying("elements", true, false),
+        overlaying("clusters", false, true),
+        {"vases-pick", "vases", {}, base::Vec2d(300.0, 125.0)},
+    };
+    return cases;
+}
+
 /// The demo, solved roughly, once for all pictures.
-class GalleryPictures : public ::testing::TestWithParam<const char*> {
+class GalleryPictures : public ::testing::TestWithParam<Case> {
   protected:
     static void SetUpTestSuite() {
         solve::Options options;
@@ -62,20 +110,32 @@ class GalleryPictures : public ::testing::TestWithParam<const char*> {
         scene_.reset();
     }
 
+    static std::vector<std::uint8_t> draw(gl::HeadlessKind kind, const Case& one) {
+        const auto camera =
+            std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
+                         [&](const scene::Camera& candidate) { return candidate.name == one.camera; });
+        if (camera == scene_->cameras.end()) {
+            ADD_FAILURE() << "no camera " << one.camera;
+            return {};
+        }
+        std::optional<image::Inspection> inspection;
+        if (one.pick) {
+            inspection = image::inspectAlong(solver_->problem(), app::rayThrough(*camera, kSize, *one.pick));
+            EXPECT_TRUE(inspection);
+        }
+        const auto context = gl::makeHeadlessContext(kind);
+        return app::drawPicture(*context, scene_, *solver_->show(app::detailFor(one.look)), *camera, kSize,
+                                one.look, {inspection ? &*inspection : nullptr, {true, true}});
+    }
+
     static inline std::shared_ptr<const scene::Scene> scene_;
     static inline std::unique_ptr<solve::Solver> solver_;
 };
 
 // To take a new picture for the right one: look at what the failing test wrote, and copy it to tests/golden.
 TEST_P(GalleryPictures, LookAsTheyShould) {
-    const auto camera =
-        std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
-                     [](const scene::Camera& candidate) { return candidate.name == GetParam(); });
-    ASSERT_NE(camera, scene_->cameras.end());
-    const auto context = gl::makeHeadlessContext(gl::HeadlessKind::osmesa);
-    const auto drawn =
-        app::drawPicture(*context, scene_, solver_->litMeshes(), *camera, kSize, render::ToneCurve::filmic);
-    const std::string name = std::string("gallery-") + GetParam() + ".png";
+    const auto drawn = draw(gl::HeadlessKind::osmesa, GetParam());
+    const std::string name = "gallery-" + GetParam().name + ".png";
     const std::filesystem::path wanted = std::filesystem::path(FLUXWALK_SOURCE_DIR) / "tests/golden" / name;
     int width = 0;
     int height = 0;
@@ -95,7 +155,26 @@ TEST_P(GalleryPictures, LookAsTheyShould) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GalleryPictures, ::testing::Values("entrance", "torus", "vases"));
+TEST_P(GalleryPictures, AreTheSameByEgl) {
+    EXPECT_EQ(draw(gl::HeadlessKind::egl, GetParam()), draw(gl::HeadlessKind::osmesa, GetParam()));
+}
+
+std::string nameOf(const ::testing::TestParamInfo<Case>& one) {
+    std::string name = one.param.name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+INSTANTIATE_TEST_SUITE_P(All, GalleryPictures, ::testing::ValuesIn(allCases()), nameOf);
+
+/// Residuals of a solution are rounding noise in places: only their drawing is compared.
+using GalleryResiduals = GalleryPictures;
+TEST_P(GalleryResiduals, AreTheSameByEgl) {
+    const auto egl = draw(gl::HeadlessKind::egl, GetParam());
+    EXPECT_EQ(egl, draw(gl::HeadlessKind::osmesa, GetParam()));
+    EXPECT_NE(egl, draw(gl::HeadlessKind::egl, Case{"vases", "vases"}));
+}
+INSTANTIATE_TEST_SUITE_P(All, GalleryResiduals,
+                         ::testing::Values(showing("residual", render::Shown::residual)), nameOf);
 
 }  // namespace
 }  // namespace fluxwalk

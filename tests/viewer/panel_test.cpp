@@ -80,6 +80,7 @@ class Panel : public ::testing::TestWithParam<gl::HeadlessKind> {
             const PanelActions actions = frame();
             all.changedOptions |= actions.changedOptions;
             all.togglesPause |= actions.togglesPause;
+            all.steps |= actions.steps;
         }
         return all;
     }
@@ -123,6 +124,37 @@ TEST_P(Panel, PauseIsClicked) {
     const PanelActions actions = click(ImVec2(14 + 348 - 14 - 40, 14 + 24 + 12 + 15 + 6 + 12));
     EXPECT_TRUE(actions.togglesPause);
     EXPECT_FALSE(actions.changedOptions);
+}
+
+TEST_P(Panel, StepIsClickedWhilePaused) {
+    // Left of the button that continues.
+    const ImVec2 place(14 + 348 - 14 - 84 - 8 - 27, 14 + 24 + 12 + 15 + 6 + 12);
+    frame();
+    EXPECT_FALSE(click(place).steps);
+    info_.isPaused = true;
+    const PanelActions actions = click(place);
+    EXPECT_TRUE(actions.steps);
+    EXPECT_FALSE(actions.togglesPause);
+}
+
+TEST_P(Panel, OverlaysAreOfferedWhereSomethingIsSolved) {
+    // Clicking all down the column of widgets leaves no overlay on in a lit file, and some where a scene is
+    // solved.
+    for (const bool isSolved : {false, true}) {
+        if (!isSolved) {
+            info_.session.reset();
+        } else {
+            info_.session = session::Status{};
+        }
+        settings_ = {};
+        bool isAny = false;
+        for (float y = 60.0f; y < 800.0f; y += 6.0f) {
+            click(ImVec2(14 + 14 + 348 * 0.40f + 4, y));
+            isAny =
+                isAny || settings_.draw.elementEdges || settings_.draw.clusterBoxes || settings_.isProbing;
+        }
+        EXPECT_EQ(isAny, isSolved);
+    }
 }
 
 TEST_P(Panel, ErrorTargetIsSlid) {

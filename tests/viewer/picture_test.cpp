@@ -14,10 +14,16 @@ namespace {
 
 constexpr gl::PixelSize kSize{320, 240};
 
+solve::Snapshot snapshotOf(const testing::TestRoom& room) {
+    solve::Snapshot snapshot;
+    snapshot.meshes = room.meshes;
+    return snapshot;
+}
+
 std::vector<std::uint8_t> drawRoom(gl::HeadlessKind kind, bool textured, ToneCurve curve) {
     const auto context = gl::makeHeadlessContext(kind);
     const testing::TestRoom room = testing::makeTestRoom(textured);
-    return app::drawPicture(*context, room.scene, room.meshes, room.camera, kSize, curve);
+    return app::drawPicture(*context, room.scene, snapshotOf(room), room.camera, kSize, {{}, curve});
 }
 
 struct Pixel {
@@ -44,6 +50,16 @@ TEST_P(EqualPictures, EglAndOsmesa) {
     }
 }
 
+TEST(EqualFalseColors, EglAndOsmesa) {
+    const auto drawValues = [](gl::HeadlessKind kind) {
+        const auto context = gl::makeHeadlessContext(kind);
+        const testing::TestRoom room = testing::makeTestRoom(true);
+        return app::drawPicture(*context, room.scene, snapshotOf(room), room.camera, kSize,
+                                {{}, ToneCurve::filmic, Shown::illuminance});
+    };
+    EXPECT_EQ(drawValues(gl::HeadlessKind::egl), drawValues(gl::HeadlessKind::osmesa));
+}
+
 INSTANTIATE_TEST_SUITE_P(FlatAndTextured, EqualPictures, ::testing::Bool());
 
 /// A square of 2 m about the origin that faces +z, seen from 3 m before it.
@@ -56,11 +72,14 @@ class OneQuad : public ::testing::Test {
     }
     /// The picture's centre. `exposure` per cd/m2.
     Pixel drawCenter(double exposure, ToneCurve curve, const base::Vec3d& eye = {0.0, 0.0, 3.0}) {
+        return draw({exposure, curve}, eye);
+    }
+    Pixel draw(const DrawSettings& settings, const base::Vec3d& eye = {0.0, 0.0, 3.0}) {
         SceneRenderer renderer(context_->functions(), scene_);
         renderer.setMeshes({std::make_shared<const scene::LitMesh>(mesh_)});
         const gl::RenderTarget target(context_->functions(), size_, 1);
         target.bind();
-        renderer.draw(lookAt(eye, base::Vec3d(0.0), 40.0), 1.0, {exposure, curve});
+        renderer.draw(lookAt(eye, base::Vec3d(0.0), 40.0), 1.0, settings);
         target.resolve();
         return pixelAt(target.readRgb(), size_, size_.width / 2, size_.height / 2);
     }
@@ -70,6 +89,68 @@ class OneQuad : public ::testing::Test {
     std::shared_ptr<scene::Scene> scene_;
     scene::LitMesh mesh_;
 };
+
+TEST_F(OneQuad, ShaderAgreesWithFalseColorInCpp) {
+    scene_->materials[0].reflectance = {0.8f, 0.5f, 0.2f};
+    scene_->materials[0].emission = {0.0f, 30.0f, 100.0f};
+    const ColorMap map;
+    for (const double lux : {0.0, 3.0, 20.0, 77.0, 200.0, 900.0}) {
+        const base::Rgb irradiance(static_cast<float>(lux));
+        mesh_.irradiance.assign(mesh_.positions.size(), irradiance);
+        const double exitance = static_cast<double>(
+            base::luminance(scene_->materials[0].reflectance * irradiance + scene_->materials[0].emission));
+        for (const Shown shown : {Shown::illuminance, Shown::luminance}) {
+            for (const ValueScale scale : {ValueScale::logarithmic, ValueScale::linear}) {
+                DrawSettings settings{1.0, ToneCurve::linear, shown, scale, ValueRange{5.0, 500.0}};
+                const double value = shown == Shown::illuminance ? lux : exitance / base::kPi;
+                const Color8& wanted = map.at(placeOf(value, *settings.range, scale));
+                const Pixel drawn = draw(settings);
+                EXPECT_NEAR(drawn.r, wanted[0], 2) << lux;
+                EXPECT_NEAR(drawn.g, wanted[1], 2) << lux;
+                EXPECT_NEAR(drawn.b, wanted[2], 2) << lux;
+            }
+        }
+    }
+}
+
+TEST_F(OneQuad, IsolinesStandAtRoundNumbers) {
+    // 10 lx at the left edge to 1000 lx at the right, in the logarithm nearly linear over many cells.
+    mesh_ = testing::makeQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, 64);
+    for (std::size_t i = 0; i < mesh_.positions.size(); ++i) {
+        mesh_.irradiance[i] = base::Rgb(std::pow(10.0f, 2.0f + mesh_.positions[i].x));
+    }
+    constexpr gl::PixelSize kWide{512, 16};
+    SceneRenderer renderer(context_->functions(), scene_);
+    renderer.setMeshes({std::make_shared<const scene::LitMesh>(mesh_)});
+    const gl::RenderTarget target(context_->functions(), kWide, 1);
+    // From far away, so that 512 pixels are 2 m.
+    const double fov = 2.0 * std::atan(1.0 / 32.0 / 100.0) * 180.0 / base::kPi;
+    const auto row = [&](bool isolines) {
+        DrawSettings settings{
+            1.0,     ToneCurve::linear, Shown::illuminance, ValueScale::logarithmic, ValueRange{10.0, 1000.0},
+            isolines};
+        target.bind();
+        renderer.draw(lookAt({0.0, 0.0, 100.0}, base::Vec3d(0.0), fov), 32.0, settings);
+        target.resolve();
+        return target.readRgb();
+    };
+    const auto with = row(true);
+    const auto without = row(false);
+    std::vector<double> lines;
+    for (int x = 4; x < 508; ++x) {
+        const Pixel a = pixelAt(with, kWide, x, 8);
+        const Pixel b = pixelAt(without, kWide, x, 8);
+        const bool isLine = std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) > 60;
+        if (isLine && (lines.empty() || x > lines.back() + 3.0)) {
+            lines.push_back(x);
+        }
+    }
+    const std::vector<double> round{20.0, 50.0, 100.0, 200.0, 500.0};
+    ASSERT_EQ(lines.size(), round.size());
+    for (std::size_t i = 0; i < round.size(); ++i) {
+        EXPECT_NEAR(lines[i], 256.0 * (std::log10(round[i]) - 1.0), 2.0) << round[i];
+    }
+}
 
 TEST_F(OneQuad, ShaderAgreesWithToneCurveInCpp) {
     scene_->materials[0].reflectance = {0.8f, 0.5f, 0.2f};

@@ -4,17 +4,27 @@
 #include <memory>
 #include <vector>
 
-#include "core/scene/lit_mesh.h"
+#include "core/image/inspect.h"
 #include "core/scene/scene.h"
+#include "core/solve/solver.h"
 #include "viewer/gl/context.h"
 #include "viewer/gl/pixel_size.h"
-#include "viewer/render/tone.h"
+#include "viewer/render/scene_renderer.h"
+#include "viewer/ui/inspection.h"
 
 namespace fluxwalk::app {
 
-/// Draws lit meshes at automatic exposure with smooth edges: 3 bytes a pixel, sRGB, rows from the top.
+/// A point whose values are drawn into a picture; null for none.
+struct Inspected {
+    const image::Inspection* inspection = nullptr;
+    ui::InspectionView view{};
+};
+
+/// Draws a solution with smooth edges, and a legend where values are shown: 3 bytes a pixel, sRGB, rows from
+/// the top.
 std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_ptr<const scene::Scene>& scene,
-                                      const scene::LitMeshes& meshes, const scene::Camera& camera,
-                                      gl::PixelSize size, render::ToneCurve curve);
+                                      const solve::Snapshot& snapshot, const scene::Camera& camera,
+                                      gl::PixelSize size, const render::DrawSettings& look,
+                                      const Inspected& inspected = {});
 
 }  // namespace fluxwalk::app

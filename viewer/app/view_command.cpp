@@ -1,6 +1,6 @@
 #include "viewer/app/view_command.h"
 
-#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,10 +13,14 @@
 #include "core/io/image_write.h"
 #include "core/io/lit_gltf.h"
 #include "viewer/app/camera_arguments.h"
+#include "viewer/app/choice.h"
 #include "viewer/app/first_view.h"
 #include "viewer/app/floor.h"
+#include "viewer/app/look_arguments.h"
+#include "viewer/app/overlays.h"
 #include "viewer/app/picture_size.h"
 #include "viewer/app/screenshot.h"
+#include "viewer/app/sight.h"
 #include "viewer/app/walkthrough.h"
 
 namespace fluxwalk::app {
@@ -37,20 +41,13 @@ struct ViewArguments {
     std::filesystem::path screenshot;
     gl::PixelSize size = kDefaultPicture;
     GlChoice gl = GlChoice::automatic;
+    LookArguments look;
 };
 
-GlChoice parseGl(const std::string& text) {
-    constexpr std::array<std::pair<std::string_view, GlChoice>, 4> kChoices{{{"auto", GlChoice::automatic},
-                                                                             {"egl", GlChoice::egl},
-                                                                             {"osmesa", GlChoice::osmesa},
-                                                                             {"window", GlChoice::window}}};
-    for (const auto& [name, choice] : kChoices) {
-        if (text == name) {
-            return choice;
-        }
-    }
-    throw base::UsageError("--gl: '" + text + "' is none of auto, egl, osmesa and window");
-}
+constexpr Choices<GlChoice, 4> kGlChoices{{{"auto", GlChoice::automatic},
+                                           {"egl", GlChoice::egl},
+                                           {"osmesa", GlChoice::osmesa},
+                                           {"window", GlChoice::window}}};
 
 bool isLit(const std::string& scene) {
     std::error_code ignored;
@@ -60,16 +57,16 @@ bool isLit(const std::string& scene) {
 /// Something to look at, solved or about to be.
 struct Shown {
     std::shared_ptr<const scene::Scene> scene;
-    scene::LitMeshes meshes;
+    solve::Snapshot snapshot;
     std::shared_ptr<const scene::Scene> solid;
 };
 
 Shown loadLit(const std::string& file) {
     io::LitFile lit = io::readLitGltf(file);
     Shown shown;
-    shown.meshes = std::move(lit.meshes);
+    shown.snapshot.meshes = std::move(lit.meshes);
     shown.scene = std::make_shared<const scene::Scene>(std::move(lit.scene));
-    shown.solid = std::make_shared<const scene::Scene>(sceneOfMeshes(shown.meshes));
+    shown.solid = std::make_shared<const scene::Scene>(sceneOfMeshes(shown.snapshot.meshes));
     return shown;
 }
 
@@ -94,30 +91,65 @@ std::unique_ptr<gl::Context> makeContext(GlChoice choice) {
     return gl::makeHeadlessContext(gl::HeadlessKind::automatic);
 }
 
+/// Elements, clusters and links are not in lit files.
+void requireNoSolution(const LookArguments& look) {
+    if (look.pick || !(detailFor(look.draw) == solve::Detail{})) {
+        throw base::UsageError(
+            "a lit file has no elements and links: --pick, --overlay, --show level and --show residual need "
+            "a "
+            "scene that is solved (with --resume FILE, from a checkpoint)");
+    }
+}
+
+image::Inspection inspectPixel(const solve::Problem& problem, const scene::Camera& camera, gl::PixelSize size,
+                               const base::Vec2d& pixel) {
+    if (pixel.x < 0.0 || pixel.y < 0.0 || pixel.x >= size.width || pixel.y >= size.height) {
+        throw base::UsageError("--pick: the pixel lies outside the picture of " + std::to_string(size.width) +
+                               "x" + std::to_string(size.height));
+    }
+    auto inspection = image::inspectAlong(problem, rayThrough(camera, size, pixel));
+    if (!inspection) {
+        throw base::UsageError("--pick: nothing is seen at that pixel");
+    }
+    return std::move(*inspection);
+}
+
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     cli::requireWritable(file);
+    if ((arguments.look.inspection.links || arguments.look.inspection.contributors) && !arguments.look.pick) {
+        throw base::UsageError("--overlay links and --overlay contributors need the point of --pick X,Y");
+    }
     // All that can fail before the solving, which may take long.
     const std::unique_ptr<gl::Context> context = makeContext(arguments.gl);
     Shown shown;
     std::optional<cli::Solved> solved;
     if (isLit(arguments.scene.scene)) {
+        requireNoSolution(arguments.look);
         shown = loadLit(arguments.scene.scene);
     } else {
         if (!arguments.camera.name.empty()) {
             chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
         }
         solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
-        shown = {solved->scene, solved->solver->litMeshes(), solved->scene};
+        shown = {solved->scene, *solved->solver->show(detailFor(arguments.look.draw)), solved->scene};
     }
     const scene::Camera camera = cameraFor(arguments, shown);
+    std::optional<image::Inspection> inspection;
+    if (arguments.look.pick) {
+        inspection = inspectPixel(solved->solver->problem(), camera, arguments.size, *arguments.look.pick);
+    }
     const std::vector<std::uint8_t> pixels =
-        drawPicture(*context, shown.scene, shown.meshes, camera, arguments.size, render::ToneCurve::filmic);
+        drawPicture(*context, shown.scene, shown.snapshot, camera, arguments.size, arguments.look.draw,
+                    {inspection ? &*inspection : nullptr, arguments.look.inspection});
     cli::writeOutput([&] {
         io::writePng(file, static_cast<std::uint32_t>(arguments.size.width),
                      static_cast<std::uint32_t>(arguments.size.height), pixels);
     });
     if (!solved) {
         return cli::ExitCode::success;
+    }
+    if (inspection) {
+        std::fputs(ui::describeInspection(*inspection, *shown.scene).c_str(), stdout);
     }
     cli::completeReport(*solved, {file.string()});
     cli::deliver(solved->report, arguments.output);
@@ -128,6 +160,7 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
     Exhibit exhibit;
     Shown shown;
     if (isLit(arguments.scene.scene)) {
+        requireNoSolution(arguments.look);
         shown = loadLit(arguments.scene.scene);
     } else {
         const auto checkpointing = std::make_shared<cli::Checkpointing>(arguments.solver);
@@ -148,16 +181,26 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
         }
     }
     exhibit.camera = cameraFor(arguments, shown);
+    exhibit.look = arguments.look.draw;
+    exhibit.inspection = arguments.look.inspection;
+    exhibit.isProbing = exhibit.inspection.links || exhibit.inspection.contributors;
     exhibit.scene = shown.scene;
-    exhibit.meshes = std::move(shown.meshes);
+    if (!exhibit.options) {
+        exhibit.lit = std::make_shared<const solve::Snapshot>(std::move(shown.snapshot));
+    }
     exhibit.solid = shown.solid;
     walkThrough(window, exhibit);
     return cli::ExitCode::success;
 }
 
 cli::ExitCode runView(const ViewArguments& arguments) {
+    checkLook(arguments.look);
     if (!arguments.screenshot.empty()) {
         return takePicture(arguments, arguments.screenshot);
+    }
+    if (arguments.look.pick) {
+        throw base::UsageError(
+            "--pick needs --screenshot OUT.png; in the window, point at things and press I");
     }
     if (arguments.gl == GlChoice::egl || arguments.gl == GlChoice::osmesa) {
         throw base::UsageError("--gl egl and --gl osmesa have no window: add --screenshot OUT.png");
@@ -195,11 +238,15 @@ cli::Command viewCommand() {
                 ->type_name("WxH")
                 ->group("Picture");
             app.add_option_function<std::string>(
-                   "--gl", [arguments](const std::string& text) { arguments->gl = parseGl(text); },
+                   "--gl",
+                   [arguments](const std::string& text) {
+                       arguments->gl = parseChoice("--gl", text, kGlChoices);
+                   },
                    "What draws the picture: egl needs no display, osmesa is Mesa's software renderer, window "
                    "a display. By default egl, or osmesa where that cannot be had.")
                 ->type_name("auto|egl|osmesa|window")
                 ->group("Picture");
+            addLookOptions(app, arguments->look);
             cli::addSolverOptions(app, arguments->solver);
             cli::addOutputOptions(app, arguments->output);
             return [arguments] { return runView(*arguments); };

@@ -8,11 +8,14 @@
 #include <imgui.h>
 
 #include "viewer/app/floor.h"
+#include "viewer/app/inspector.h"
 #include "viewer/app/mouse_look.h"
+#include "viewer/app/overlays.h"
 #include "viewer/gl/render_target.h"
 #include "viewer/render/scene_renderer.h"
 #include "viewer/ui/imgui_context.h"
 #include "viewer/ui/imgui_renderer.h"
+#include "viewer/ui/legend.h"
 #include "viewer/ui/panel.h"
 
 namespace fluxwalk::app {
@@ -28,6 +31,8 @@ constexpr double kFollowingPart = 0.25;
 /// Seconds after the last movement when a software picture gets its smooth edges back.
 constexpr double kStandstill = 0.3;
 constexpr int kSamples = 4;
+/// What the line of keys takes of the lower edge, at 96 dpi.
+constexpr float kKeysHeight = 58.0f;
 /// A camera so many metres above a floor is a person who stands there and will want to walk.
 constexpr double kLowestEyes = 0.8;
 constexpr double kHighestEyes = 2.3;
@@ -42,6 +47,9 @@ class Walkthrough {
   private:
     void waitForWork();
     void takeSnapshot();
+    void show(std::shared_ptr<const solve::Snapshot> snapshot);
+    void followOverlays();
+    void inspect(bool isClicked);
     void chooseMovement();
     void takeKeys();
     bool move(double seconds);
@@ -62,6 +70,11 @@ class Walkthrough {
     bool hasChosenMovement_ = false;
     std::shared_ptr<const solve::Snapshot> shown_;
     double automaticExposure_ = 0.0;
+    /// Settings that the overlay was filled for.
+    render::DrawSettings overlaid_;
+    std::optional<ui::Legend> faceLegend_;
+    bool isOverlayOld_ = true;
+    Inspector inspector_;
 
     double now_ = 0.0;
     double lastMove_ = -1.0;
@@ -85,14 +98,14 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit)
       renderer_(window.functions(), exhibit.scene),
       mouse_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
+      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection},
       options_(exhibit.options.value_or(solve::Options{})),
       now_(glfwGetTime()),
       floor_(exhibit.solid) {
     if (exhibit.options) {
         session_.emplace(session::solveWith(exhibit.solver), *exhibit.options, [] { glfwPostEmptyEvent(); });
     } else {
-        renderer_.setMeshes(exhibit.meshes);
-        automaticExposure_ = renderer_.automaticExposure();
+        show(exhibit.lit);
     }
 }
 
@@ -120,10 +133,53 @@ void Walkthrough::takeSnapshot() {
     if (mayWait && now_ - lastDraw_ < drawSeconds_ / kFollowingPart) {
         return;
     }
-    renderer_.setMeshes(newest->meshes);
+    show(std::move(newest));
+}
+
+void Walkthrough::show(std::shared_ptr<const solve::Snapshot> snapshot) {
+    renderer_.setMeshes(snapshot->meshes);
     automaticExposure_ = renderer_.automaticExposure();
-    shown_ = std::move(newest);
+    shown_ = std::move(snapshot);
     needsDrawing_ = true;
+    isOverlayOld_ = true;
+}
+
+// Elements, clusters and coloured faces follow the settings and the snapshot.
+void Walkthrough::followOverlays() {
+    const render::DrawSettings& look = settings_.draw;
+    if (session_ && !(detailFor(look) == detailFor(overlaid_))) {
+        session_->setDetail(detailFor(look));
+    }
+    const bool isSame = look.shown == overlaid_.shown && look.elementEdges == overlaid_.elementEdges &&
+                        look.clusterBoxes == overlaid_.clusterBoxes &&
+                        look.clusterDepth == overlaid_.clusterDepth;
+    if (shown_ && (!isSame || isOverlayOld_)) {
+        faceLegend_ = fillOverlay(renderer_.overlay(), *shown_, look, renderer_.colorMap());
+        isOverlayOld_ = false;
+        needsDrawing_ = true;
+    }
+    overlaid_ = look;
+}
+
+void Walkthrough::inspect(bool isClicked) {
+    if (!session_ || !settings_.isProbing || !shown_) {
+        return;
+    }
+    const ImGuiIO& io = ImGui::GetIO();
+    Inspector::Frame frame;
+    frame.camera = walker_.camera();
+    frame.size = {static_cast<int>(io.DisplaySize.x), static_cast<int>(io.DisplaySize.y)};
+    frame.cursor = mouse_.isCaptured()
+                       ? 0.5 * base::Vec2d(frame.size.width, frame.size.height)
+                       : base::Vec2d(static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y));
+    frame.isOverPanel = io.WantCaptureMouse && !mouse_.isCaptured();
+    frame.isClicked = isClicked;
+    frame.solution = shown_->sequence;
+    inspector_.update(*session_, frame);
+    if (const image::Inspection* inspection = inspector_.inspection()) {
+        ui::drawInspection(*inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
+                           {imgui_.scale(), kKeysHeight * imgui_.scale()});
+    }
 }
 
 void Walkthrough::chooseMovement() {
@@ -147,6 +203,14 @@ void Walkthrough::takeKeys() {
     }
     if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) {
         mouse_.setCaptured(false);
+        inspector_.unpin();
+    }
+    if (session_ && ImGui::IsKeyPressed(GLFW_KEY_I, false)) {
+        settings_.isProbing = !settings_.isProbing;
+        inspector_.unpin();
+    }
+    if (session_ && isPaused_ && ImGui::IsKeyPressed(GLFW_KEY_N, false)) {
+        session_->step();
     }
     if (ImGui::IsKeyPressed(GLFW_KEY_H, false)) {
         settings_.isPanelOpen = !settings_.isPanelOpen;
@@ -154,6 +218,10 @@ void Walkthrough::takeKeys() {
     if (ImGui::IsKeyPressed(GLFW_KEY_F, false)) {
         const bool walks = walker_.movement == ui::Movement::walk;
         walker_.movement = walks ? ui::Movement::fly : ui::Movement::walk;
+    }
+    if (ImGui::IsKeyPressed(GLFW_KEY_C, false)) {
+        const bool isPicture = settings_.draw.shown == render::Shown::picture;
+        settings_.draw.shown = isPicture ? render::Shown::illuminance : render::Shown::picture;
     }
     if (session_ && ImGui::IsKeyPressed(GLFW_KEY_P, false)) {
         isPaused_ = !isPaused_;
@@ -194,9 +262,10 @@ void Walkthrough::drawScene() {
     }
     const bool mustBeQuick = window_.isSoftware() && now_ - lastMove_ < kStandstill;
     const int samples = settings_.smoothEdges && !mustBeQuick ? kSamples : 1;
-    const render::DrawSettings wanted{settings_.exposure.exposure, settings_.curve};
-    const bool isSame = target_ && target_->size() == size && target_->samples() == samples &&
-                        drawn_.exposure == wanted.exposure && drawn_.curve == wanted.curve;
+    render::DrawSettings wanted = settings_.draw;
+    wanted.exposure = settings_.exposure.exposure;
+    const bool isSame =
+        target_ && target_->size() == size && target_->samples() == samples && drawn_ == wanted;
     if (isSame && !needsDrawing_) {
         framesPerSecond_ = 0.0;
         return;
@@ -226,11 +295,23 @@ void Walkthrough::drawInterface() {
     info.triangleCount = renderer_.triangleCount();
     info.framesPerSecond = framesPerSecond_;
     info.renderer = window_.renderer();
+    info.shownRange = renderer_.rangeOf(settings_.draw);
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
+    inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse);
+    const ui::Canvas canvas{scale, kKeysHeight * scale};
+    if (faceLegend_) {
+        ui::drawLegend(*faceLegend_, canvas);
+    } else if (settings_.draw.shown == render::Shown::illuminance ||
+               settings_.draw.shown == render::Shown::luminance) {
+        ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), canvas);
+    }
     ui::drawKeys(mouse_.isCaptured(), walker_.movement, scale);
     if (session_ && actions.changedOptions) {
         session_->setOptions(options_);
+    }
+    if (session_ && actions.steps) {
+        session_->step();
     }
     if (session_ && actions.togglesPause) {
         isPaused_ = !isPaused_;
@@ -258,6 +339,7 @@ void Walkthrough::step() {
         needsDrawing_ = true;
     }
     drawInterface();
+    followOverlays();
     ImGui::Render();
     const bool isAdapting =
         automaticExposure_ > 0.0 && settings_.exposure.follow(automaticExposure_, seconds);

@@ -7,7 +7,9 @@
 #include "core/scene/scene.h"
 #include "core/solve/options.h"
 #include "viewer/gl/window_context.h"
+#include "viewer/render/scene_renderer.h"
 #include "viewer/session/solver_session.h"
+#include "viewer/ui/inspection.h"
 
 namespace fluxwalk::app {
 
@@ -15,8 +17,12 @@ namespace fluxwalk::app {
 struct Exhibit {
     std::shared_ptr<const scene::Scene> scene;
     scene::Camera camera;
-    /// A lit file's meshes; empty where the scene is solved.
-    scene::LitMeshes meshes;
+    /// What is shown at first.
+    render::DrawSettings look;
+    bool isProbing = false;
+    ui::InspectionView inspection;
+    /// A lit file's meshes; null where the scene is solved.
+    std::shared_ptr<const solve::Snapshot> lit;
     /// Its shapes as objects, for the floor: the scene itself, or one made of a lit file's meshes.
     std::shared_ptr<const scene::Scene> solid;
     /// How to solve; nothing for a lit file.

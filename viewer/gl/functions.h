@@ -70,6 +70,7 @@ namespace fluxwalk::gl {
     X(TEXPARAMETERI, TexParameteri)                                   \
     X(UNIFORM1F, Uniform1f)                                           \
     X(UNIFORM1I, Uniform1i)                                           \
+    X(UNIFORM2F, Uniform2f)                                           \
     X(UNIFORM3F, Uniform3f)                                           \
     X(UNIFORM4F, Uniform4f)                                           \
     X(UNIFORMMATRIX3FV, UniformMatrix3fv)                             \

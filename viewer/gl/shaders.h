@@ -3,7 +3,7 @@
 #include <string_view>
 
 /// The GLSL files of shaders/, copied into the program by the build. They carry no #version line: `tone.glsl`
-/// goes before the fragment shaders that use it.
+/// and `false_color.glsl` go before the fragment shaders that use them.
 namespace fluxwalk::gl::shaders {
 
 extern const std::string_view kLitVertex;
@@ -11,6 +11,11 @@ extern const std::string_view kLitFragment;
 extern const std::string_view kBackgroundVertex;
 extern const std::string_view kBackgroundFragment;
 extern const std::string_view kTone;
+extern const std::string_view kFalseColor;
+extern const std::string_view kFaceVertex;
+extern const std::string_view kFaceFragment;
+extern const std::string_view kLineVertex;
+extern const std::string_view kLineFragment;
 extern const std::string_view kPanelVertex;
 extern const std::string_view kPanelFragment;
 

@@ -42,6 +42,13 @@ ClipRange clipRangeFor(const scene::Camera& camera, const base::Box& bounds) {
     return {nearest, std::max(2.0 * nearest, 1.01 * glm::length(farthestCorner) + nearest)};
 }
 
+Vec3d directionAt(const scene::Camera& camera, double aspect, const base::Vec2d& place) {
+    const Vec3d right = glm::normalize(glm::cross(camera.forward, camera.up));
+    const Vec3d up = glm::cross(right, camera.forward);
+    const double height = std::tan(0.5 * camera.verticalFov);
+    return glm::normalize(camera.forward + height * (aspect * place.x * right + place.y * up));
+}
+
 glm::mat4 clipFromWorld(const scene::Camera& camera, double aspect, const ClipRange& range) {
     const glm::dmat4 view = glm::lookAt(camera.position, camera.position + camera.forward, camera.up);
     return glm::mat4(glm::perspective(camera.verticalFov, aspect, range.nearest, range.farthest) * view);

@@ -68,6 +68,7 @@ MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& mat
         const base::Rgb irradiance =
             (mesh.irradiance[a] + mesh.irradiance[b] + mesh.irradiance[c]) * (1.0f / 3.0f);
         const float exitance = base::luminance(reflectance * irradiance + emission);
+        result.illuminance.add(static_cast<double>(base::luminance(irradiance)), area);
         (emits ? result.emitting : result.reflecting).add(static_cast<double>(exitance) / base::kPi, area);
     }
     return result;

@@ -8,8 +8,8 @@
 /// How bright a scene is and how a camera would expose it.
 namespace fluxwalk::render {
 
-/// Area by luminance, in steps of 1/8 stop from 2^-24 to 2^24 cd/m2; darker surfaces are left out (unlit
-/// parts say nothing about the light).
+/// Area by luminance (or another value), in steps of 1/8 stop from 2^-24 to 2^24 cd/m2; darker surfaces are
+/// left out (unlit parts say nothing about the light).
 class LuminanceHistogram {
   public:
     /// `luminance` in cd/m2, `area` in m2.
@@ -32,6 +32,8 @@ class LuminanceHistogram {
 struct MeshLuminance {
     LuminanceHistogram reflecting;
     LuminanceHistogram emitting;
+    /// Illuminance of all sides, lux instead of cd/m2.
+    LuminanceHistogram illuminance;
 };
 MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& material,
                           const base::Rgb& meanReflectanceTexture, const base::Rgb& meanEmissionTexture);

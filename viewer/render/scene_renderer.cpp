@@ -13,11 +13,15 @@ namespace {
 
 constexpr GLint kReflectanceUnit = 0;
 constexpr GLint kEmissionUnit = 1;
+constexpr GLint kColorMapUnit = 2;
+/// Shape without light.
+constexpr float kRelief = 0.55f;
 
-std::string join(std::string_view a, std::string_view b) {
+std::string join(std::initializer_list<std::string_view> parts) {
     std::string source(gl::shaders::kVersion);
-    source += a;
-    source += b;
+    for (const std::string_view part : parts) {
+        source += part;
+    }
     return source;
 }
 
@@ -33,25 +37,46 @@ SceneRenderer::LitUniforms::LitUniforms(const gl::Program& program)
       emission(program.uniform("emission")),
       alphaCutoff(program.uniform("alphaCutoff")),
       reflectanceTexture(program.uniform("reflectanceTexture")),
-      emissionTexture(program.uniform("emissionTexture")) {}
+      emissionTexture(program.uniform("emissionTexture")),
+      shown(program.uniform("shown")),
+      colorMap(program.uniform("colorMap")),
+      valueScale(program.uniform("valueScale")),
+      valueRange(program.uniform("valueRange")),
+      isolineStep(program.uniform("isolineStep")) {}
 
 SceneRenderer::SceneRenderer(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene)
     : gl_(gl),
       scene_(std::move(scene)),
-      lit_(gl, "lit", join("", gl::shaders::kLitVertex), join(gl::shaders::kTone, gl::shaders::kLitFragment)),
+      lit_(gl, "lit", join({gl::shaders::kLitVertex}),
+           join({gl::shaders::kTone, gl::shaders::kFalseColor, gl::shaders::kLitFragment})),
       litUniforms_(lit_),
       litTone_(lit_),
-      background_(gl, "background", join("", gl::shaders::kBackgroundVertex),
-                  join(gl::shaders::kTone, gl::shaders::kBackgroundFragment)),
+      background_(gl, "background", join({gl::shaders::kBackgroundVertex}),
+                  join({gl::shaders::kTone, gl::shaders::kBackgroundFragment})),
       backgroundTone_(background_),
       noVertices_(gl),
-      textures_(gl, scene_) {}
+      textures_(gl, scene_),
+      colorMapTexture_(gl),
+      overlay_(gl) {
+    sendColorMap();
+}
+
+void SceneRenderer::sendColorMap() const {
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, colorMapTexture_.id());
+    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, static_cast<GLsizei>(ColorMap::kSize), 1, 0, GL_RGB,
+                   GL_UNSIGNED_BYTE, colorMap_.colors().data());
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
 
 std::size_t SceneRenderer::setMeshes(const scene::LitMeshes& meshes) {
     std::size_t sent = 0;
     std::unordered_map<const scene::LitMesh*, GpuMesh> kept;
     opaque_.clear();
     blended_.clear();
+    luminance_ = {};
     bounds_ = {};
     triangleCount_ = 0;
     for (const auto& mesh : meshes) {
@@ -69,6 +94,9 @@ std::size_t SceneRenderer::setMeshes(const scene::LitMeshes& meshes) {
         }
         const GpuMesh& gpu = kept.at(mesh.get());
         (material.alphaMode == scene::AlphaMode::blend ? blended_ : opaque_).push_back(&gpu);
+        luminance_.reflecting.add(gpu.luminance().reflecting);
+        luminance_.emitting.add(gpu.luminance().emitting);
+        luminance_.illuminance.add(gpu.luminance().illuminance);
         bounds_.extend(gpu.bounds());
         triangleCount_ += mesh->triangles.size() / 3;
     }
@@ -77,19 +105,37 @@ std::size_t SceneRenderer::setMeshes(const scene::LitMeshes& meshes) {
 }
 
 double SceneRenderer::automaticExposure() const {
-    LuminanceHistogram reflecting;
-    LuminanceHistogram emitting;
-    for (const auto* group : {&opaque_, &blended_}) {
-        for (const GpuMesh* mesh : *group) {
-            reflecting.add(mesh->luminance().reflecting);
-            emitting.add(mesh->luminance().emitting);
-        }
+    return render::automaticExposure(luminance_.reflecting, luminance_.emitting);
+}
+
+ValueRange SceneRenderer::rangeOf(const DrawSettings& settings) const {
+    if (settings.range) {
+        return *settings.range;
     }
-    return render::automaticExposure(reflecting, emitting);
+    if (settings.shown == Shown::luminance && !luminance_.reflecting.isEmpty()) {
+        return chooseRange(luminance_.reflecting, settings.scale);
+    }
+    return chooseRange(settings.shown == Shown::luminance ? luminance_.emitting : luminance_.illuminance,
+                       settings.scale);
+}
+
+void SceneRenderer::setValues(const DrawSettings& settings) const {
+    const ValueRange range = rangeOf(settings);
+    gl_.ActiveTexture(GL_TEXTURE0 + kColorMapUnit);
+    gl_.BindTexture(GL_TEXTURE_2D, colorMapTexture_.id());
+    const Shown shown = showsFaces(settings.shown) ? Shown::picture : settings.shown;
+    gl_.Uniform1i(litUniforms_.shown, static_cast<GLint>(shown));
+    gl_.Uniform1i(litUniforms_.colorMap, kColorMapUnit);
+    gl_.Uniform1i(litUniforms_.valueScale, static_cast<GLint>(settings.scale));
+    gl_.Uniform2f(litUniforms_.valueRange, static_cast<GLfloat>(range.least),
+                  static_cast<GLfloat>(range.most));
+    gl_.Uniform1f(litUniforms_.isolineStep,
+                  settings.isolines ? static_cast<GLfloat>(roundStep(range)) : 0.0f);
 }
 
 void SceneRenderer::setTone(const ToneUniforms& uniforms, const DrawSettings& settings) const {
-    gl_.Uniform1f(uniforms.exposure, static_cast<GLfloat>(settings.exposure));
+    const double exposure = settings.exposure ? *settings.exposure : automaticExposure();
+    gl_.Uniform1f(uniforms.exposure, static_cast<GLfloat>(exposure));
     gl_.Uniform1i(uniforms.curve, static_cast<GLint>(settings.curve));
 }
 
@@ -104,23 +150,40 @@ void SceneRenderer::draw(const scene::Camera& camera, double aspect, const DrawS
     gl_.CullFace(GL_BACK);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     drawBackground(camera, matrix, settings);
+    const OverlayView view{matrix, base::Vec3(camera.position)};
+    if (showsFaces(settings.shown) && overlay_.hasFaces()) {
+        overlay_.drawFaces(view, settings.shown == Shown::objects ? kRelief : 0.0f);
+    } else {
+        drawLit(camera, matrix, settings);
+    }
+    if (settings.elementEdges) {
+        overlay_.drawEdges(view, settings.shown != Shown::picture);
+    }
+    if (settings.clusterBoxes) {
+        overlay_.drawBoxes(view);
+    }
+    gl_.BindVertexArray(0);
+}
 
+void SceneRenderer::drawLit(const scene::Camera& camera, const glm::mat4& clipFromWorld,
+                            const DrawSettings& settings) {
     lit_.use();
     setTone(litTone_, settings);
-    gl_.UniformMatrix4fv(litUniforms_.clipFromWorld, 1, GL_FALSE, &matrix[0][0]);
+    setValues(settings);
+    gl_.UniformMatrix4fv(litUniforms_.clipFromWorld, 1, GL_FALSE, &clipFromWorld[0][0]);
     gl_.Uniform1i(litUniforms_.reflectanceTexture, kReflectanceUnit);
     gl_.Uniform1i(litUniforms_.emissionTexture, kEmissionUnit);
     for (const GpuMesh* mesh : opaque_) {
         drawMesh(*mesh);
     }
     drawBlended(camera);
-    gl_.BindVertexArray(0);
 }
 
 void SceneRenderer::drawBackground(const scene::Camera& camera, const glm::mat4& clipFromWorld,
                                    const DrawSettings& settings) const {
     const glm::mat4 worldFromClip = glm::inverse(clipFromWorld);
-    const base::Rgb sky = scene_->sky * static_cast<float>(1.0 / base::kPi);
+    const base::Rgb sky = settings.shown == Shown::picture ? scene_->sky * static_cast<float>(1.0 / base::kPi)
+                                                           : base::Rgb(0.0f);
     background_.use();
     setTone(backgroundTone_, settings);
     gl_.UniformMatrix4fv(background_.uniform("worldFromClip"), 1, GL_FALSE, &worldFromClip[0][0]);

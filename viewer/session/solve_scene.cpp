@@ -2,11 +2,12 @@
 
 namespace fluxwalk::session {
 
-SolveFunction solveWith(SolverSource source) {
+Solving solveWith(SolverSource source) {
     // Functions are copyable, the solver is not.
     auto solver = std::make_shared<std::unique_ptr<solve::Solver>>();
-    return [source = std::move(source), solver](const solve::Options& options,
-                                                const solve::Callbacks& callbacks) {
+    Solving solving;
+    solving.solve = [source = std::move(source), solver](const solve::Options& options,
+                                                         const solve::Callbacks& callbacks) {
         if (*solver == nullptr) {
             *solver = source.make(options);
         } else {
@@ -14,10 +15,20 @@ SolveFunction solveWith(SolverSource source) {
         }
         solve::Callbacks all = callbacks;
         if (source.resumable) {
-            all.resumable = [&](solve::Moment moment) { source.resumable(**solver, moment); };
+            all.resumable = [&](solve::Moment moment) {
+                source.resumable(**solver, moment);
+                callbacks.resumable(moment);
+            };
         }
         return (*solver)->solve(all);
     };
+    solving.look.show = [solver](const solve::Detail& detail) {
+        return *solver == nullptr ? nullptr : (*solver)->show(detail);
+    };
+    solving.look.inspect = [solver](const rays::Ray& ray) {
+        return *solver == nullptr ? std::nullopt : image::inspectAlong((*solver)->problem(), ray);
+    };
+    return solving;
 }
 
 }  // namespace fluxwalk::session

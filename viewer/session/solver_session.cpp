@@ -4,8 +4,8 @@
 
 namespace fluxwalk::session {
 
-SolverSession::SolverSession(SolveFunction solve, const solve::Options& options, std::function<void()> wake)
-    : solve_(std::move(solve)), wake_(std::move(wake)), options_(options), thread_([this] { run(); }) {}
+SolverSession::SolverSession(Solving solving, const solve::Options& options, std::function<void()> wake)
+    : solving_(std::move(solving)), wake_(std::move(wake)), options_(options), thread_([this] { run(); }) {}
 
 SolverSession::~SolverSession() {
     stop();
@@ -41,6 +41,14 @@ void SolverSession::setOptions(const solve::Options& options) {
 void SolverSession::setPaused(bool paused) {
     const std::lock_guard lock(mutex_);
     isPaused_ = paused;
+    status_.isStepping = false;
+    changed_.notify_all();
+}
+
+void SolverSession::step() {
+    const std::lock_guard lock(mutex_);
+    isPaused_ = false;
+    status_.isStepping = true;
     changed_.notify_all();
 }
 
@@ -48,6 +56,24 @@ void SolverSession::stop() {
     const std::lock_guard lock(mutex_);
     isStopping_ = true;
     changed_.notify_all();
+}
+
+void SolverSession::setDetail(const solve::Detail& detail) {
+    const std::lock_guard lock(mutex_);
+    hasNewDetail_ = hasNewDetail_ || !(detail == detail_);
+    detail_ = detail;
+    changed_.notify_all();
+}
+
+void SolverSession::ask(const rays::Ray& ray) {
+    const std::lock_guard lock(mutex_);
+    question_ = ray;
+    changed_.notify_all();
+}
+
+std::shared_ptr<const Finding> SolverSession::finding() const {
+    const std::lock_guard lock(mutex_);
+    return finding_;
 }
 
 Status SolverSession::wait() {
@@ -66,16 +92,69 @@ void SolverSession::enter(std::unique_lock<std::mutex>& lock, Phase phase) {
     }
 }
 
+void SolverSession::publish(std::shared_ptr<const solve::Snapshot> snapshot) {
+    {
+        const std::lock_guard lock(mutex_);
+        // Swapped, so that the old one is freed after the lock.
+        std::swap(latest_, snapshot);
+    }
+    if (wake_) {
+        wake_();
+    }
+}
+
+// Answers the question that waits, if there is one.
+void SolverSession::answer(std::unique_lock<std::mutex>& lock) {
+    if (!question_) {
+        return;
+    }
+    auto finding = std::make_shared<Finding>();
+    finding->ray = *std::exchange(question_, std::nullopt);
+    lock.unlock();
+    if (solving_.look.inspect) {
+        finding->inspection = solving_.look.inspect(finding->ray);
+    }
+    lock.lock();
+    finding_ = std::move(finding);
+    if (wake_) {
+        lock.unlock();
+        wake_();
+        lock.lock();
+    }
+}
+
+// What the resting solver is asked to show or to answer.
+void SolverSession::look(std::unique_lock<std::mutex>& lock) {
+    answer(lock);
+    if (std::exchange(hasNewDetail_, false) && solving_.look.show) {
+        const solve::Detail detail = detail_;
+        lock.unlock();
+        if (auto snapshot = solving_.look.show(detail)) {
+            publish(std::move(snapshot));
+        }
+        lock.lock();
+    }
+}
+
 solve::Callbacks SolverSession::makeCallbacks() {
     solve::Callbacks callbacks;
     callbacks.publish = [this](std::shared_ptr<const solve::Snapshot> snapshot) {
-        {
-            const std::lock_guard lock(mutex_);
-            // Swapped, so that the old one is freed after the lock.
-            std::swap(latest_, snapshot);
-        }
-        if (wake_) {
-            wake_();
+        publish(std::move(snapshot));
+    };
+    callbacks.detail = [this] {
+        const std::lock_guard lock(mutex_);
+        hasNewDetail_ = false;
+        return detail_;
+    };
+    callbacks.settled = [this] {
+        std::unique_lock lock(mutex_);
+        answer(lock);
+    };
+    callbacks.resumable = [this](solve::Moment moment) {
+        const std::lock_guard lock(mutex_);
+        if (moment == solve::Moment::level && status_.isStepping) {
+            status_.isStepping = false;
+            isPaused_ = true;
         }
     };
     callbacks.shouldStop = [this] {
@@ -99,10 +178,11 @@ void SolverSession::solveOnce(std::unique_lock<std::mutex>& lock) {
     hasNewOptions_ = false;
     const solve::Options options = options_;
     lock.unlock();
-    const solve::Outcome outcome = solve_(options, makeCallbacks());
+    const solve::Outcome outcome = solving_.solve(options, makeCallbacks());
     lock.lock();
     status_.outcome = outcome;
     isUnfinished_ = outcome == solve::Outcome::stopped;
+    status_.isStepping = status_.isStepping && isUnfinished_;
 }
 
 void SolverSession::run() {
@@ -115,8 +195,11 @@ void SolverSession::run() {
                 continue;
             }
             enter(lock, hasWork ? Phase::paused : Phase::finished);
-            changed_.wait(
-                lock, [this] { return isStopping_ || (!isPaused_ && (isUnfinished_ || hasNewOptions_)); });
+            changed_.wait(lock, [this] {
+                return isStopping_ || hasNewDetail_ || question_ ||
+                       (!isPaused_ && (isUnfinished_ || hasNewOptions_));
+            });
+            look(lock);
         }
         enter(lock, Phase::stopped);
     } catch (...) {

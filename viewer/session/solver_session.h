@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "core/image/inspect.h"
 #include "core/solve/solver.h"
 
 /// The solver in a thread of its own.
@@ -17,14 +19,31 @@ namespace fluxwalk::session {
 /// Solves with the given options until done or stopped; called again to go on. Runs on the session's thread.
 using SolveFunction = std::function<solve::Outcome(const solve::Options&, const solve::Callbacks&)>;
 
+/// Looks at the solution; called while the solver stands still, on the session's thread. May be empty.
+struct Lookers {
+    std::function<std::shared_ptr<const solve::Snapshot>(const solve::Detail&)> show;
+    std::function<std::optional<image::Inspection>(const rays::Ray&)> inspect;
+};
+
 /// Where its Solver comes from, and who is told when it could go on from its state (may be empty).
 struct SolverSource {
     std::function<std::unique_ptr<solve::Solver>(const solve::Options&)> make;
     std::function<void(const solve::Solver&, solve::Moment)> resumable;
 };
 
+struct Solving {
+    SolveFunction solve;
+    Lookers look;
+};
+
 /// Makes its Solver on the first call and keeps it for the next ones.
-SolveFunction solveWith(SolverSource source);
+Solving solveWith(SolverSource source);
+
+/// What a look along a ray met.
+struct Finding {
+    rays::Ray ray;
+    std::optional<image::Inspection> inspection;
+};
 
 enum class Phase : std::uint8_t {
     solving,
@@ -40,6 +59,7 @@ struct Status {
     solve::Outcome outcome = solve::Outcome::stopped;  ///< of the last solve; valid when finished
     double progress = 0.0;                             ///< in [0, 1], towards the requested error
     std::string stage;
+    bool isStepping = false;  ///< goes on to the end of a level only
     std::exception_ptr failure;
 };
 
@@ -49,7 +69,10 @@ class SolverSession {
   public:
     /// Starts at once. `wake` (may be empty) is called on the solver's thread after each new snapshot and
     /// change of phase.
-    SolverSession(SolveFunction solve, const solve::Options& options, std::function<void()> wake);
+    SolverSession(Solving solving, const solve::Options& options, std::function<void()> wake);
+    /// Without looks.
+    SolverSession(SolveFunction solve, const solve::Options& options, std::function<void()> wake)
+        : SolverSession(Solving{std::move(solve), {}}, options, std::move(wake)) {}
     /// Stops and joins.
     ~SolverSession();
     SolverSession(const SolverSession&) = delete;
@@ -63,7 +86,17 @@ class SolverSession {
     void setOptions(const solve::Options& options);
     solve::Options options() const;
     void setPaused(bool paused);
+    /// Goes on until the end of a level of refinement and pauses there.
+    void step();
     void stop();
+
+    /// What snapshots tell from now on; where the solver rests, a new one follows at once.
+    void setDetail(const solve::Detail& detail);
+    /// Asks what is met along a ray. Answered after the next sweep, or at once where the solver rests; a
+    /// later question takes the place of one that still waits.
+    void ask(const rays::Ray& ray);
+    /// The newest answer; null before the first.
+    std::shared_ptr<const Finding> finding() const;
 
     /// Waits until the session is finished, stopped or failed.
     Status wait();
@@ -73,8 +106,11 @@ class SolverSession {
     void solveOnce(std::unique_lock<std::mutex>& lock);
     solve::Callbacks makeCallbacks();
     void enter(std::unique_lock<std::mutex>& lock, Phase phase);
+    void publish(std::shared_ptr<const solve::Snapshot> snapshot);
+    void answer(std::unique_lock<std::mutex>& lock);
+    void look(std::unique_lock<std::mutex>& lock);
 
-    const SolveFunction solve_;
+    const Solving solving_;
     const std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
@@ -82,6 +118,10 @@ class SolverSession {
     solve::Options options_;
     std::shared_ptr<const solve::Snapshot> latest_;
     Status status_;
+    solve::Detail detail_;
+    bool hasNewDetail_ = false;
+    std::optional<rays::Ray> question_;
+    std::shared_ptr<const Finding> finding_;
     bool hasNewOptions_ = true;
     bool isUnfinished_ = true;
     bool isPaused_ = false;

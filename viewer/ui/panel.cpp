@@ -47,6 +47,9 @@ std::string describePhase(const PanelInfo& info) {
     }
     switch (info.session->phase) {
         case session::Phase::solving:
+            if (info.session->isStepping) {
+                return "One level: " + info.session->stage;
+            }
             if (info.isPaused) {
                 return "Pausing";
             }
@@ -77,13 +80,20 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
         return;
     }
     const float buttonWidth = 84.0f * scale;
+    const float stepWidth = 54.0f * scale;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float buttons = buttonWidth + gap + (info.isPaused ? stepWidth + gap : 0.0f);
     const float height = ImGui::GetFrameHeight();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (height - 6.0f * scale));
     ImGui::ProgressBar(static_cast<float>(info.session->progress),
-                       ImVec2(ImGui::GetContentRegionAvail().x - buttonWidth - gap, 6.0f * scale), "");
+                       ImVec2(ImGui::GetContentRegionAvail().x - buttons, 6.0f * scale), "");
     ImGui::SameLine();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 0.5f * (height - 6.0f * scale));
+    if (info.isPaused) {
+        actions.steps = ImGui::Button("Step", ImVec2(stepWidth, 0.0f));
+        explain("Solves one level further: refines the links once and sweeps. Key: N");
+        ImGui::SameLine();
+    }
     if (ImGui::Button(info.isPaused ? "Continue" : "Pause", ImVec2(buttonWidth, 0.0f))) {
         actions.togglesPause = true;
     }
@@ -165,12 +175,12 @@ void drawExposure(ViewSettings& settings) {
     }
 
     constexpr std::array<const char*, 3> kCurves{"Linear", "Filmic", "Reinhard"};
-    int curve = static_cast<int>(settings.curve);
+    int curve = static_cast<int>(settings.draw.curve);
     beginRow("Tone curve",
              "Linear is true to the light and clips. Filmic rolls off towards white and deepens the dark "
              "tones. Reinhard compresses all highlights and keeps their hue.");
     if (ImGui::Combo("##curve", &curve, kCurves.data(), static_cast<int>(kCurves.size()))) {
-        settings.curve = static_cast<render::ToneCurve>(curve);
+        settings.draw.curve = static_cast<render::ToneCurve>(curve);
     }
 }
 
@@ -238,6 +248,9 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
                 drawConvergence(info.snapshot->statistics, options.error, scale);
             }
         }
+        if (beginSection("See why")) {
+            drawShown(info, settings);
+        }
         if (beginSection("Light and tone")) {
             drawExposure(settings);
         }
@@ -266,8 +279,9 @@ void drawKeys(bool isCaptured, Movement movement, float scale) {
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                          ImGuiWindowFlags_NoNav)) {
-        ImGui::TextColored(kTextDim, "WASD move    Q E down, up    %s    %s    P pause    H panel", look,
-                           other);
+        ImGui::TextColored(
+            kTextDim, "WASD move    Q E down, up    %s    %s    C lux    I inspect    P pause    H panel",
+            look, other);
     }
     ImGui::End();
 }

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "core/solve/solver.h"
-#include "viewer/render/tone.h"
+#include "viewer/render/scene_renderer.h"
 #include "viewer/session/solver_session.h"
 #include "viewer/ui/exposure_control.h"
+#include "viewer/ui/inspection.h"
 #include "viewer/ui/walker.h"
 
 namespace fluxwalk::ui {
@@ -14,7 +15,11 @@ namespace fluxwalk::ui {
 /// What the user sets for the view.
 struct ViewSettings {
     ExposureControl exposure;
-    render::ToneCurve curve = render::ToneCurve::filmic;
+    /// All but the exposure.
+    render::DrawSettings draw;
+    /// Values of the point under the cursor, or of a pinned one.
+    bool isProbing = false;
+    InspectionView inspection;
     bool smoothEdges = true;
     bool isPanelOpen = true;
 };
@@ -30,12 +35,15 @@ struct PanelInfo {
     std::size_t triangleCount = 0;
     double framesPerSecond = 0.0;  ///< 0 while the picture stands still
     std::string renderer;
+    /// Range in which values are shown at present.
+    render::ValueRange shownRange;
 };
 
 /// What the user did in one frame, beside changing the structures passed in.
 struct PanelActions {
     bool changedOptions = false;
     bool togglesPause = false;
+    bool steps = false;
     /// Index of a scene camera to go to, -1 for none.
     int camera = -1;
 };
@@ -48,6 +56,7 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
 void drawKeys(bool isCaptured, Movement movement, float scale);
 
 /// Sections of the panel, each in its own file.
+void drawShown(const PanelInfo& info, ViewSettings& settings);
 void drawStatistics(const PanelInfo& info);
 void drawConvergence(const solve::Statistics& statistics, double target, float scale);
 

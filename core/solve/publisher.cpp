@@ -1,0 +1,32 @@
+#include "core/solve/publisher.h"
+
+namespace fluxwalk::solve {
+
+std::shared_ptr<const Snapshot> Publisher::make(const Detail& detail, bool isFinished) {
+    auto snapshot = std::make_shared<Snapshot>();
+    snapshot->sequence = ++count_;
+    snapshot->meshes = display_.refresh();
+    snapshot->statistics = problem_.statistics;
+    snapshot->finished = isFinished;
+    if (detail.elements || detail.residuals) {
+        const std::vector<float> residuals =
+            detail.residuals ? computeResiduals(problem_) : std::vector<float>{};
+        const std::vector<const display::CellTable*> tables = display_.tables();
+        snapshot->elements.resize(snapshot->meshes.size());
+        problem_.executor.forRange(tables.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                snapshot->elements[i] = std::make_shared<const MeshElements>(
+                    describeElements(problem_, *snapshot->meshes[i], *tables[i], residuals));
+            }
+        });
+    }
+    if (detail.clusters) {
+        if (clusters_ == nullptr) {
+            clusters_ = std::make_shared<const std::vector<ClusterBox>>(listClusters(problem_));
+        }
+        snapshot->clusters = clusters_;
+    }
+    return snapshot;
+}
+
+}  // namespace fluxwalk::solve

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viewer/render/scene_renderer.h"
+
+namespace fluxwalk::ui {
+
+/// Where things are drawn over a picture.
+struct Canvas {
+    float scale = 1.0f;     ///< 1 at 96 dpi
+    float reserved = 0.0f;  ///< height in pixels at the lower edge that is kept free
+};
+
+/// What the colours of a picture mean.
+struct Legend {
+    struct Mark {
+        double place = 0.0;  ///< 0 at the lower end, 1 at the upper
+        std::string label;
+        bool hasTick = true;
+    };
+    std::string title;
+    /// From below; one colour for each step.
+    std::vector<render::Color8> colors;
+    std::vector<Mark> marks;
+};
+
+/// Round numbers beside the colour map, for values shown in a range; the title names quantity and unit.
+Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange& range,
+                  const render::ColorMap& map);
+
+/// Draws it in the lower right corner of the picture. Labels that would touch are left out.
+void drawLegend(const Legend& legend, const Canvas& canvas);
+
+}  // namespace fluxwalk::ui

@@ -1,0 +1,122 @@
+#include <array>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "viewer/ui/panel.h"
+#include "viewer/ui/widgets.h"
+
+namespace fluxwalk::ui {
+namespace {
+
+/// Ends that a range may be given, in lux or cd/m2, and how far apart they must be.
+constexpr double kLeastEnd = 1e-3;
+constexpr double kMostEnd = 1e6;
+constexpr double kLeastRatio = 1.01;
+
+void drawRange(const PanelInfo& info, render::DrawSettings& draw) {
+    bool isAutomatic = !draw.range;
+    beginRow("Range",
+             "Values of the first and the last colour. Automatic: round numbers about what is seen.");
+    if (ImGui::Checkbox("automatic##range", &isAutomatic)) {
+        draw.range = isAutomatic ? std::nullopt : std::optional(info.shownRange);
+    }
+    if (!draw.range) {
+        return;
+    }
+    const char* format = draw.shown == render::Shown::luminance ? "%.3g cd/m\u00b2" : "%.3g lx";
+    beginRow("   from", "Value of the first colour.");
+    const bool isLinear = draw.scale == render::ValueScale::linear;
+    slideLogarithmic("##least", draw.range->least, isLinear ? 0.0 : kLeastEnd, kMostEnd / kLeastRatio,
+                     format);
+    beginRow("   to", "Value of the last colour.");
+    slideLogarithmic("##most", draw.range->most, kLeastRatio * kLeastEnd, kMostEnd, format);
+    draw.range->most = std::max(draw.range->most, kLeastRatio * std::max(draw.range->least, kLeastEnd));
+}
+
+void drawValues(const PanelInfo& info, render::DrawSettings& draw) {
+    constexpr std::array<const char*, 2> kScales{"Logarithmic", "Linear"};
+    int scale = static_cast<int>(draw.scale);
+    beginRow("Scale", "Logarithmic: equal ratios have equal steps of colour. Linear: equal differences.");
+    if (ImGui::Combo("##scale", &scale, kScales.data(), static_cast<int>(kScales.size()))) {
+        draw.scale = static_cast<render::ValueScale>(scale);
+        draw.range.reset();
+    }
+    drawRange(info, draw);
+    beginRow("Isolines", "Lines of equal value at the round numbers of the legend.");
+    ImGui::Checkbox("lines##isolines", &draw.isolines);
+}
+
+// What only a solution that is here can tell.
+void drawOverlays(ViewSettings& settings) {
+    render::DrawSettings& draw = settings.draw;
+    beginRow("Elements",
+             "The edges of the elements: leaves of the solution, smallest where the light changes.");
+    ImGui::Checkbox("edges##elements", &draw.elementEdges);
+    beginRow(
+        "Clusters",
+        "Boxes of the clusters that are so many steps below the whole scene. Links may end at any of them.");
+    ImGui::Checkbox("boxes##clusters", &draw.clusterBoxes);
+    if (draw.clusterBoxes) {
+        beginRow("   steps", "0: the whole scene. Each step parts a cluster into two.");
+        int depth = static_cast<int>(draw.clusterDepth);
+        constexpr int kDeepest = 20;
+        if (ImGui::SliderInt("##depth", &depth, 0, kDeepest, "%d", ImGuiSliderFlags_AlwaysClamp)) {
+            draw.clusterDepth = static_cast<unsigned>(depth);
+        }
+    }
+    beginRow("Probe",
+             "Light at the point under the cursor, as measure gives it, and its element. A click pins the "
+             "point, Esc lets it go. Key: I");
+    ImGui::Checkbox("under the cursor##probe", &settings.isProbing);
+    if (settings.isProbing) {
+        beginRow(
+            "   links",
+            "Lines to where the element's light comes from: wider ones carry more. Amber: elements, blue: "
+            "clusters, white: lights and sky.");
+        ImGui::Checkbox("lines##links", &settings.inspection.links);
+        beginRow("   lit by", "What lights the point, as parts of its illuminance.");
+        ImGui::Checkbox("list##contributors", &settings.inspection.contributors);
+    }
+}
+
+}  // namespace
+
+void drawShown(const PanelInfo& info, ViewSettings& settings) {
+    using render::Shown;
+    struct Kind {
+        Shown shown;
+        const char* name;
+        bool needsSolver;
+    };
+    constexpr std::array<Kind, 6> kKinds{{{Shown::picture, "Picture", false},
+                                          {Shown::illuminance, "Illuminance", false},
+                                          {Shown::luminance, "Luminance", false},
+                                          {Shown::level, "Level of elements", true},
+                                          {Shown::residual, "Residual", true},
+                                          {Shown::objects, "Objects", false}}};
+    render::DrawSettings& draw = settings.draw;
+    beginRow(
+        "Show",
+        "Picture: as a camera sees it.\nIlluminance: light that arrives, in lux. Key: C\nLuminance: "
+        "brightness of the surfaces, in cd/m\u00b2.\nLevel of elements: how often they were "
+        "quartered.\nResidual: what a further sweep would change.\nObjects: each in a colour of its own.");
+    if (ImGui::BeginCombo("##shown", kKinds[static_cast<std::size_t>(draw.shown)].name)) {
+        for (const Kind& kind : kKinds) {
+            const bool isOffered = info.session || !kind.needsSolver;
+            if (isOffered && ImGui::Selectable(kind.name, kind.shown == draw.shown)) {
+                draw.shown = kind.shown;
+                draw.range.reset();
+            }
+        }
+        ImGui::EndCombo();
+    }
+    if (draw.shown == Shown::illuminance || draw.shown == Shown::luminance) {
+        drawValues(info, draw);
+    }
+    if (info.session) {
+        drawOverlays(settings);
+    }
+}
+
+}  // namespace fluxwalk::ui
