@@ -135,7 +135,7 @@ TEST(CurvedRoom, boundedOracleHalvesTheErrorOfBf) {
         return Result{solver.statistics().counters.links, errors.ofGathered(solver).rms,
                       errors.ofMeshes(solver.litMeshes(), solver.problem().executor).rms};
     };
-    const Result bounded = solve(solve::OracleKind::bounded, 0.0027);
+    const Result bounded = solve(solve::OracleKind::bounded, 0.002);
     const Result bf = solve(solve::OracleKind::bf, 3.3);
     EXPECT_LE(bounded.links, bf.links);
     EXPECT_LT(2.0 * bounded.gathered, bf.gathered);

@@ -4,18 +4,22 @@
 #include <cmath>
 #include <vector>
 
+#include "core/solve/row_scaling.h"
 #include "tests/support/solving.h"
 
 namespace fluxwalk::test {
 
 /// Jacobi and sequential Gauss-Seidel over the links of a refined problem, one leaf after the other, green
-/// channel, constant ends; nothing shared with the solver's sweeps.
+/// channel, constant ends; of the solver's sweeps they share what the leaves keep (solve::limitRows), nothing
+/// else.
 class PlainSweeps {
   public:
     enum class Order : std::uint8_t { jacobi, gaussSeidel };
 
     explicit PlainSweeps(const Problem& problem) : problem_(problem), leaves_(leavesOf(problem.hierarchy)) {
+        const std::vector<float> kept = solve::limitRows(problem);
         for (const NodeId leaf : leaves_) {
+            const auto part = kept.empty() ? 1.0 : static_cast<double>(kept[base::index(leaf)]);
             gathers_.emplace_back();
             for (NodeId id = leaf; isElement(id); id = problem.hierarchy.parent(id)) {
                 const double area = static_cast<double>(problem.hierarchy.shape(id).exposedArea());
@@ -23,7 +27,7 @@ class PlainSweeps {
                     const hierarchy::Link& link = problem.links.links[l];
                     const NodeId source = link.a == id ? link.b : link.a;
                     gathers_.back().push_back(
-                        {base::index(source), static_cast<double>(link.transfer()) / area});
+                        {base::index(source), part * static_cast<double>(link.transfer()) / area});
                 }
             }
         }
