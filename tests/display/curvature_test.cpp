@@ -1,9 +1,8 @@
-#include "core/display/curvature.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "core/display/cell_regions.h"
 #include "core/display/interpolate.h"
 #include "tests/display/display_scenes.h"
 #include "tests/display/mesh_checks.h"
@@ -28,11 +27,30 @@ DisplayMeshes build(const surface::Surface& surface, const std::vector<Leaf>& le
     return buildDisplayMeshes(PatchTopology(surface), 0, 0, leaves, options);
 }
 
+// All shapes, and a column.
+std::vector<test::CurvedShape> shapes() {
+    std::vector<test::CurvedShape> all = test::curvedShapes();
+    const auto column = [](const base::Mat4d& m, bool inside) -> test::SurfacePtr {
+        return std::make_shared<const surface::Cylinder>(m, 0.16, 2.45, inside);
+    };
+    all.push_back({"column", column, 4});
+    return all;
+}
+
+surface::Region regionOf(const surface::Surface& surface, std::uint32_t patch, const CellPlace& place) {
+    surface::Region region = surface::regionOf(surface, patch, place.path);
+    for (unsigned level = 0; level < surface::pathLevel(place.cuts); ++level) {
+        const unsigned step = surface::pathStep(place.cuts, level);
+        region = halfRegions(surface, patch, region, axisOfStep(step))[step & 1u];
+    }
+    return region;
+}
+
 class Curvature : public testing::TestWithParam<test::CurvedShape> {
   protected:
     test::SurfacePtr surface_ = GetParam().make(base::Mat4d(1.0), false);
 };
-INSTANTIATE_TEST_SUITE_P(Shapes, Curvature, testing::ValuesIn(test::curvedShapes()),
+INSTANTIATE_TEST_SUITE_P(Shapes, Curvature, testing::ValuesIn(shapes()),
                          [](const auto& shape) { return shape.param.name; });
 
 // From the coarsest solution and from random ones, with normals as they are on the shape.
@@ -48,7 +66,7 @@ TEST_P(Curvature, closesAndKeepsToTheThreshold) {
             const CellTable& table = built.tables[0];
             for (std::uint32_t patch = 0; patch < surface_->patchCount(); ++patch) {
                 for (std::uint32_t c = table.firstCell[patch]; c < table.firstCell[patch + 1]; ++c) {
-                    const surface::Region region = surface::regionOf(*surface_, patch, table.paths[c]);
+                    const surface::Region region = regionOf(*surface_, patch, table.places[c]);
                     EXPECT_LE(surface_->bounds(patch, region).normals.halfAngle, angle + 1e-12);
                 }
             }
@@ -58,7 +76,10 @@ TEST_P(Curvature, closesAndKeepsToTheThreshold) {
 
 TEST_P(Curvature, carriesTheLightThatWasShown) {
     const auto leaves = makeLeaves(*surface_, slope, SplitRandomly{5, 2}, 2);
-    const DisplayMeshes coarse = build(*surface_, leaves, base::kPi);
+    MeshOptions asSolved;
+    asSolved.curvatureAngle = base::kPi;
+    asSolved.leastAngle = 0.0;
+    const DisplayMeshes coarse = buildDisplayMeshes(PatchTopology(*surface_), 0, 0, leaves, asSolved);
     const DisplayMeshes fine = build(*surface_, leaves, 3.0 * kDegree);
     ASSERT_GT(fine.meshes[0]->triangles.size(), coarse.meshes[0]->triangles.size());
     // At the coarse mesh's vertices nothing changes.
