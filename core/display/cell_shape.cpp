@@ -65,18 +65,18 @@ double CellShape::turnAlong(Axis axis) const {
     return most;
 }
 
+double CellShape::riseOf(unsigned side) const {
+    return glm::distance(middle(side), 0.5 * (corner(side) + corner(side + 1)));
+}
+
 double CellShape::bendOf(unsigned side) const {
-    const Vec3d& a = corner(side);
-    const Vec3d& b = corner(side + 1);
-    const double halfChord = 0.5 * glm::distance(a, b);
-    const double rise = glm::distance(middle(side), 0.5 * (a + b));
-    return rise > 0.0 ? rise / halfChord : 0.0;
+    const double rise = riseOf(side);
+    return rise > 0.0 ? 2.0 * rise / glm::distance(corner(side), corner(side + 1)) : 0.0;
 }
 
 double CellShape::riseOverWidth(unsigned side) const {
-    const double width = std::min(lengthOf(side + 1), lengthOf(side + 3));
-    const double rise = glm::distance(middle(side), 0.5 * (corner(side) + corner(side + 1)));
-    return rise > 0.0 ? rise / width : 0.0;
+    const double rise = riseOf(side);
+    return rise > 0.0 ? rise / std::min(lengthOf(side + 1), lengthOf(side + 3)) : 0.0;
 }
 
 bool CellShape::endsInPoint(Axis axis) const {

@@ -16,10 +16,11 @@ class CellShape {
     double longestAlong(Axis axis) const;
     /// How far the normal turns along an axis, at most, in radians (small turns; larger ones are larger).
     double turnAlong(Axis axis) const;
-    /// Rise of side k, between corners k and k + 1, over its chord, relative to half of the chord: tan(a / 2)
-    /// for an arc that turns by 2 a.
+    /// Rise of side k, between corners k and k + 1, over its chord.
+    double riseOf(unsigned side) const;
+    /// The same relative to half of the chord: tan(a / 2) for an arc that turns by 2 a.
     double bendOf(unsigned side) const;
-    /// The same rise relative to the length across, where that is shorter.
+    /// The same relative to the length across, where that is shorter.
     double riseOverWidth(unsigned side) const;
     /// Whether one end along the axis is a point, as at the pole of a disk and the apex of a cone.
     bool endsInPoint(Axis axis) const;

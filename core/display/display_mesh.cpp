@@ -74,7 +74,8 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     MeshVertices vertices = collectVertices(topology, points, cells, options.creaseAngle);
     MeshValues values = reconstructValues(cells, vertices, leaves);
     RefinedCells refined = refineForDisplay(
-        topology, cells, {options.curvatureAngle, options.leastAngle, options.mostCellsForShape});
+        topology, cells,
+        {options.curvatureAngle, options.rimRise, options.leastAngle, options.mostCellsForShape});
     if (!refined.cells.empty()) {
         MeshVertices fine = collectVertices(topology, refined.points, refined.cells, options.creaseAngle);
         values = carryValues({cells, vertices, values}, refined.cells, fine);

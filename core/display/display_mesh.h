@@ -19,11 +19,13 @@ struct MeshOptions {
     double creaseAngle = 0.5236;
     /// Curved cells are refined until their normals lie within this angle of a common axis (radians).
     double curvatureAngle = 0.0698;
+    /// Rise over their chords of free curved edges, where other objects may meet this one: metres.
+    double rimRise = 2e-4;
     /// Quads longer than wide are cut into strips until no triangle has a smaller angle (radians), but at
     /// poles; 0 for never.
     double leastAngle = 0.2705;
     /// Once a side of an object has so many cells, none is cut for its shape: thin wires would take millions.
-    std::size_t mostCellsForShape = 1u << 15;
+    std::size_t mostCellsForShape = 1u << 14;
     /// Which sets of texture coordinates to fill; those of a surface that has none stay empty.
     std::array<bool, 2> texcoords{true, true};
 };

@@ -22,6 +22,9 @@ constexpr double kInnerRise = 0.25;
 /// Cells that end in a pole are cut across until they reach no further than 2^-4 of their patch from it: no
 /// cut makes their angles larger.
 constexpr std::uint32_t kPoleExtent = kGridSize >> 4u;
+/// While there are more cells than this part of those allowed, none is cut along to save cuts across: those
+/// are still to come.
+constexpr std::size_t kLaterCuts = 8;
 /// A quad is long if it is longer than wide by more: halves of less are no better.
 constexpr double kLong = 1.5;
 
@@ -171,7 +174,7 @@ class Refiner {
         for (const Axis along : {Axis::x, Axis::y}) {
             const Axis across = along == Axis::x ? Axis::y : Axis::x;
             const bool isOnlyAcross = along == Axis::x ? cuts.y && !cuts.x : cuts.x && !cuts.y;
-            if (isOnlyAcross && longFirst_ > 0.0 && leafCount_ < options_.mostCells &&
+            if (isOnlyAcross && longFirst_ > 0.0 && leafCount_ < options_.mostCells / kLaterCuts &&
                 shape.longestAlong(along) > longFirst_ * shape.longestAlong(across) &&
                 mayCutForShape(cell, shape, along)) {
                 return {along == Axis::x, along == Axis::y};
@@ -181,12 +184,13 @@ class Refiner {
     }
 
     bool isTooBent(const Cell& cell, const CellShape& shape, unsigned side) const {
-        const double bend = shape.bendOf(side);
-        if (bend <= bend_) {
-            return false;
-        }
         const std::array<bool, 4> isBorder{cell.origin.y == 0, cell.origin.x + cell.extent.x == kGridSize,
                                            cell.origin.y + cell.extent.y == kGridSize, cell.origin.x == 0};
+        const double bend = shape.bendOf(side);
+        if (bend <= bend_) {
+            return isBorder[side] && shape.riseOf(side) > options_.rimRise &&
+                   topology_.isFree(cell.patch, side);
+        }
         return isBorder[side] || longFirst_ == 0.0 || bend > std::tan(0.25 * kInnerTurn) ||
                shape.riseOverWidth(side) > kInnerRise;
     }

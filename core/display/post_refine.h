@@ -13,11 +13,14 @@ struct RefineOptions {
     /// Curved cells are cut until their normals lie within this angle of a common axis and no edge on their
     /// patch's border turns by more than twice that (radians), at most kMaxExtraLevels times each way.
     double curvatureAngle = 0.0698;
+    /// Where no other patch follows, an edge may rise so far over its chord (metres): other objects may meet
+    /// it, and must not leave a gap that is seen.
+    double rimRise = 2e-4;
     /// Quads that are longer than wide are cut across until no triangle about their middle has a smaller
     /// angle (radians), except at a pole; 0 for never. Those of planar patches into kMaxPlanarStrips at most.
     double leastAngle = 0.2705;
-    /// Once there are so many cells, none is cut for its shape.
-    std::size_t mostCells = 1u << 15;
+    /// Once there are so many cells, none is cut for its shape. What fits in is cut alike.
+    std::size_t mostCells = 1u << 14;
 };
 inline constexpr unsigned kMaxExtraLevels = 7;
 inline constexpr unsigned kMaxPlanarStrips = 4;
