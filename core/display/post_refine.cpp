@@ -22,9 +22,10 @@ constexpr double kInnerRise = 0.25;
 /// Cells that end in a pole are cut across until they reach no further than 2^-4 of their patch from it: no
 /// cut makes their angles larger.
 constexpr std::uint32_t kPoleExtent = kGridSize >> 4u;
-/// While there are more cells than this part of those allowed, none is cut along to save cuts across: those
-/// are still to come.
-constexpr std::size_t kLaterCuts = 8;
+/// A cell is cut along to save cuts across only while it is no longer than this many widths, and while there
+/// are no more cells than this part of those allowed: the cuts across are still to come.
+constexpr double kVeryLong = 8.0;
+constexpr std::size_t kLaterCuts = 16;
 /// A quad is long if it is longer than wide by more: halves of less are no better.
 constexpr double kLong = 1.5;
 
@@ -174,9 +175,9 @@ class Refiner {
         for (const Axis along : {Axis::x, Axis::y}) {
             const Axis across = along == Axis::x ? Axis::y : Axis::x;
             const bool isOnlyAcross = along == Axis::x ? cuts.y && !cuts.x : cuts.x && !cuts.y;
-            if (isOnlyAcross && longFirst_ > 0.0 && leafCount_ < options_.mostCells / kLaterCuts &&
-                shape.longestAlong(along) > longFirst_ * shape.longestAlong(across) &&
-                mayCutForShape(cell, shape, along)) {
+            const double ratio = shape.longestAlong(along) / shape.longestAlong(across);
+            if (isOnlyAcross && longFirst_ > 0.0 && ratio > longFirst_ && ratio < kVeryLong &&
+                leafCount_ < options_.mostCells / kLaterCuts && mayCutForShape(cell, shape, along)) {
                 return {along == Axis::x, along == Axis::y};
             }
         }

@@ -10,6 +10,7 @@
 #include "core/scene/builders.h"
 #include "core/solve/solver.h"
 #include "viewer/app/screenshot.h"
+#include "viewer/render/camera.h"
 
 namespace fluxwalk {
 namespace {
@@ -47,8 +48,20 @@ Difference compare(const std::vector<std::uint8_t>& a, const std::uint8_t* b) {
     return result;
 }
 
+/// A camera of the scene, or one of its own where `fov` (vertical, degrees) is not 0.
+struct View {
+    const char* name;
+    base::Vec3d eye{};
+    base::Vec3d target{};
+    double fov = 0.0;
+};
+
+std::ostream& operator<<(std::ostream& out, const View& view) {
+    return out << view.name;
+}
+
 /// The demo, solved roughly, once for all pictures.
-class GalleryPictures : public ::testing::TestWithParam<const char*> {
+class GalleryPictures : public ::testing::TestWithParam<View> {
   protected:
     static void SetUpTestSuite() {
         solve::Options options;
@@ -68,14 +81,21 @@ class GalleryPictures : public ::testing::TestWithParam<const char*> {
 
 // To take a new picture for the right one: look at what the failing test wrote, and copy it to tests/golden.
 TEST_P(GalleryPictures, LookAsTheyShould) {
-    const auto camera =
-        std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
-                     [](const scene::Camera& candidate) { return candidate.name == GetParam(); });
-    ASSERT_NE(camera, scene_->cameras.end());
+    const View& view = GetParam();
+    scene::Camera camera;
+    if (view.fov == 0.0) {
+        const auto named =
+            std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
+                         [&view](const scene::Camera& candidate) { return candidate.name == view.name; });
+        ASSERT_NE(named, scene_->cameras.end());
+        camera = *named;
+    } else {
+        camera = render::lookAt(view.eye, view.target, view.fov);
+    }
     const auto context = gl::makeHeadlessContext(gl::HeadlessKind::osmesa);
     const auto drawn =
-        app::drawPicture(*context, scene_, solver_->litMeshes(), *camera, kSize, render::ToneCurve::filmic);
-    const std::string name = std::string("gallery-") + GetParam() + ".png";
+        app::drawPicture(*context, scene_, solver_->litMeshes(), camera, kSize, render::ToneCurve::filmic);
+    const std::string name = std::string("gallery-") + view.name + ".png";
     const std::filesystem::path wanted = std::filesystem::path(FLUXWALK_SOURCE_DIR) / "tests/golden" / name;
     int width = 0;
     int height = 0;
@@ -95,7 +115,11 @@ TEST_P(GalleryPictures, LookAsTheyShould) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GalleryPictures, ::testing::Values("entrance", "torus", "vases"));
+// From near, outlines show chords if there are any.
+INSTANTIATE_TEST_SUITE_P(All, GalleryPictures,
+                         ::testing::Values(View{"entrance"}, View{"torus"}, View{"vases"},
+                                           View{"near-torus", {10.3, 1.5, 5.2}, {11.0, 1.7, 4.6}, 45.0},
+                                           View{"near-bowl", {6.1, 1.55, 5.2}, {6.0, 1.3, 6.0}, 40.0}));
 
 }  // namespace
 }  // namespace fluxwalk
