@@ -118,8 +118,8 @@ TEST_P(GalleryPictures, LookAsTheyShould) {
 // From near, outlines show chords if there are any.
 INSTANTIATE_TEST_SUITE_P(All, GalleryPictures,
                          ::testing::Values(View{"entrance"}, View{"torus"}, View{"vases"},
-                                           View{"near-torus", {10.3, 1.5, 5.2}, {11.0, 1.7, 4.6}, 45.0},
-                                           View{"near-bowl", {6.1, 1.55, 5.2}, {6.0, 1.3, 6.0}, 40.0}));
+                                           View{"near-torus", {9.9, 1.4, 5.4}, {11.2, 1.4, 4.5}, 55.0},
+                                           View{"near-bowl", {6.1, 1.55, 5.2}, {6.2, 1.3, 5.95}, 45.0}));
 
 }  // namespace
 }  // namespace fluxwalk
