@@ -166,8 +166,10 @@ class Refiner {
         if (surface_.bounds(cell.patch, regions_[i]).normals.halfAngle > options_.curvatureAngle) {
             const double alongX = shape.turnAlong(Axis::x);
             const double alongY = shape.turnAlong(Axis::y);
-            cuts.x = cuts.x || alongX >= 0.5 * alongY;
-            cuts.y = cuts.y || alongY >= 0.5 * alongX;
+            // A bound that is wider than what turns is not known to be so along one axis.
+            const bool isWide = std::max(alongX, alongY) < options_.curvatureAngle;
+            cuts.x = cuts.x || isWide || alongX >= 0.5 * alongY;
+            cuts.y = cuts.y || isWide || alongY >= 0.5 * alongX;
         }
         cuts.x = cuts.x && mayRefine(cell, Axis::x);
         cuts.y = cuts.y && mayRefine(cell, Axis::y);

@@ -6,6 +6,7 @@
 #include "core/display/interpolate.h"
 #include "tests/display/display_scenes.h"
 #include "tests/display/mesh_checks.h"
+#include "tests/support/curved_scenes.h"
 #include "tests/surface/curved_shapes.h"
 
 // Post-refinement of curved surfaces for the eye: regular, closed, exact, and of the same light.
@@ -226,6 +227,37 @@ TEST(CurvatureShapes, aSphereIsClosedRoundAndSmooth) {
                 const Vec3d b(mesh.positions[mesh.triangles[t + (k + 1) % 3]]);
                 EXPECT_GT(glm::length(0.5 * (a + b) - Vec3d(1.0, 2.0, 3.0)), 0.5 - sagitta - 1e-6);
             }
+        }
+    }
+}
+
+// Surfaces whose patches meet as they like, and whose edges are not split in the middle of their parameters.
+TEST(CurvatureShapes, cagesAndProjectedSurfacesStayClosed) {
+    for (const test::CurvedScene& made : test::roomsWithSolids()) {
+        if (made.name != "vase" && made.name != "smoothUnion") {
+            continue;
+        }
+        scene::Scene scene = test::glowingScene(made.name);
+        made.fill(scene);
+        const surface::Surface& surface = *scene.objects.back().surface;
+        for (std::uint64_t seed = 0; seed < 3; ++seed) {
+            const auto leaves = makeLeaves(surface, slope, SplitRandomly{seed, 2}, 1);
+            const DisplayMeshes built = build(surface, leaves, 6.0 * kDegree);
+            const scene::LitMesh& mesh = *built.meshes[0];
+            const EdgeReport report = checkEdges(mesh);
+            EXPECT_TRUE(report.open.empty()) << made.name;
+            EXPECT_EQ(report.overused, 0u) << made.name;
+            EXPECT_EQ(report.eulerCharacteristic(), 2) << made.name;
+            double smallest = 180.0;
+            std::size_t folded = 0;
+            for (std::uint32_t t = 0; t < mesh.triangles.size() / 3; ++t) {
+                smallest = std::min(smallest, smallestAngle(mesh, t));
+                const Vec3d n = areaVector(mesh, t);
+                folded +=
+                    glm::dot(n, Vec3d(mesh.normals[mesh.triangles[3 * std::size_t{t}]])) <= 0.0 ? 1u : 0u;
+            }
+            EXPECT_EQ(folded, 0u) << made.name;
+            EXPECT_GE(smallest, 15.0) << made.name;
         }
     }
 }
