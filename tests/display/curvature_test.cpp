@@ -55,6 +55,42 @@ int eulerCharacteristicOf(const std::string& name) {
     return name == "cone" || name == "coneUpsideDown" || name == "disk" ? 1 : 0;
 }
 
+// Cells at whose sides others are less than half as long.
+std::size_t countUnevenCells(const PatchTopology& topology, const CellTable& table) {
+    const auto nameOf = [](const PointKey& key) { return std::pair(key.place, key.where); };
+    std::vector<Cell> cells;
+    std::set<std::pair<std::uint64_t, std::uint32_t>> corners;
+    for (std::uint32_t patch = 0; patch + 1 < table.firstCell.size(); ++patch) {
+        for (std::uint32_t c = table.firstCell[patch]; c < table.firstCell[patch + 1]; ++c) {
+            Cell cell = makeCell(topology, patch, table.places[c].path, c);
+            for (unsigned level = 0; level < surface::pathLevel(table.places[c].cuts); ++level) {
+                const unsigned step = surface::pathStep(table.places[c].cuts, level);
+                cell = halfOf(cell, axisOfStep(step), step & 1u);
+            }
+            const auto at = cornersOf(cell);
+            for (unsigned k = 0; k < cell.cornerCount; ++k) {
+                corners.insert(nameOf(topology.keyOf(patch, at[k])));
+            }
+            cells.push_back(cell);
+        }
+    }
+    std::size_t uneven = 0;
+    for (const Cell& cell : cells) {
+        const auto at = cornersOf(cell);
+        bool isUneven = false;
+        for (unsigned k = 0; k < cell.cornerCount; ++k) {
+            const GridPoint& a = at[k];
+            const GridPoint& b = at[(k + 1u) % cell.cornerCount];
+            for (const GridPoint& end : {a, b}) {
+                const GridPoint quarter = middleOf(end, middleOf(a, b));
+                isUneven = isUneven || corners.contains(nameOf(topology.keyOf(cell.patch, quarter)));
+            }
+        }
+        uneven += isUneven ? 1u : 0u;
+    }
+    return uneven;
+}
+
 class Curvature : public testing::TestWithParam<test::CurvedShape> {
   protected:
     test::SurfacePtr surface_ = GetParam().make(base::Mat4d(1.0), false);
@@ -75,6 +111,7 @@ TEST_P(Curvature, closesAndKeepsToTheThreshold) {
             // A crack is a hole, which lowers it by one.
             EXPECT_EQ(report.eulerCharacteristic(), eulerCharacteristicOf(GetParam().name));
             const CellTable& table = built.tables[0];
+            EXPECT_EQ(countUnevenCells(PatchTopology(*surface_), table), 0u);
             for (std::uint32_t patch = 0; patch < surface_->patchCount(); ++patch) {
                 for (std::uint32_t c = table.firstCell[patch]; c < table.firstCell[patch + 1]; ++c) {
                     const surface::Region region = regionOf(*surface_, patch, table.places[c]);
