@@ -19,7 +19,7 @@ struct RefineOptions {
     /// Quads that are longer than wide are cut across until no triangle about their middle has a smaller
     /// angle (radians), except at a pole; 0 for never. Those of planar patches into kMaxPlanarStrips at most.
     double leastAngle = 0.2705;
-    /// Once there are so many cells, none is cut for its shape. What fits in is cut alike.
+    /// Once there are so many cells, none is cut for its shape: thin wires would take millions.
     std::size_t mostCells = 1u << 14;
 };
 inline constexpr unsigned kMaxExtraLevels = 7;
