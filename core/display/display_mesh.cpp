@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/display/curvature.h"
+#include "core/display/balance.h"
+#include "core/display/carry_values.h"
+#include "core/display/post_refine.h"
 #include "core/display/triangulate.h"
 
 namespace fluxwalk::display {
@@ -48,10 +50,10 @@ CellTable makeTable(std::span<const Cell> cells, std::uint32_t patchCount,
     CellTable table;
     table.firstTriangle = std::move(firstTriangle);
     table.firstCell.assign(patchCount + 1, 0);
-    table.paths.reserve(cells.size());
+    table.places.reserve(cells.size());
     for (const Cell& cell : cells) {
         ++table.firstCell[cell.patch + 1];
-        table.paths.push_back(cell.path);
+        table.places.push_back({cell.path, cell.cuts});
     }
     for (std::uint32_t patch = 0; patch < patchCount; ++patch) {
         table.firstCell[patch + 1] += table.firstCell[patch];
@@ -71,14 +73,14 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     balance(topology, points, cells);
     MeshVertices vertices = collectVertices(topology, points, cells, options.creaseAngle);
     MeshValues values = reconstructValues(cells, vertices, leaves);
-    std::vector<Cell> fineCells = refineByCurvature(topology, cells, options.curvatureAngle);
-    if (!fineCells.empty()) {
-        PointTable finePoints(2 * fineCells.size());
-        balance(topology, finePoints, fineCells);
-        MeshVertices fine = collectVertices(topology, finePoints, fineCells, options.creaseAngle);
-        values = carryValues({cells, vertices, values}, fineCells, fine);
+    RefinedCells refined = refineForDisplay(
+        topology, cells,
+        {options.curvatureAngle, options.rimRise, options.leastAngle, options.mostCellsForShape});
+    if (!refined.cells.empty()) {
+        MeshVertices fine = collectVertices(topology, refined.points, refined.cells, options.creaseAngle);
+        values = carryValues({cells, vertices, values}, refined.cells, fine);
         vertices = std::move(fine);
-        cells = std::move(fineCells);
+        cells = std::move(refined.cells);
     }
     const std::array<bool, 2> texcoords{options.texcoords[0] && topology.hasTexcoords(0),
                                         options.texcoords[1] && topology.hasTexcoords(1)};

@@ -19,15 +19,29 @@ struct MeshOptions {
     double creaseAngle = 0.5236;
     /// Curved cells are refined until their normals lie within this angle of a common axis (radians).
     double curvatureAngle = 0.0698;
+    /// Rise over their chords of free curved edges, where other objects may meet this one: metres.
+    double rimRise = 2e-4;
+    /// Quads longer than wide are cut into strips until no triangle has a smaller angle (radians), but at
+    /// poles; 0 for never.
+    double leastAngle = 0.2705;
+    /// Once a side of an object has so many cells, none is cut for its shape: thin wires would take millions.
+    std::size_t mostCellsForShape = 1u << 12;
     /// Which sets of texture coordinates to fill; those of a surface that has none stay empty.
     std::array<bool, 2> texcoords{true, true};
+};
+
+/// What part of its patch a display leaf is: a path of quarterings and, for quads, of cuts in two below it
+/// (Cell::cuts).
+struct CellPlace {
+    surface::Path path = surface::kRootPath;
+    surface::Path cuts = surface::kRootPath;
 };
 
 /// Where each display leaf's triangles are in its mesh (DisplayLookup reads it). Display leaves are ordered
 /// by patch and, within it, depth-first.
 struct CellTable {
     std::vector<std::uint32_t> firstCell;      ///< of each patch, then the number of cells
-    std::vector<surface::Path> paths;          ///< of each cell
+    std::vector<CellPlace> places;             ///< of each cell
     std::vector<std::uint32_t> firstTriangle;  ///< of each cell, then the number of triangles
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/display/cell_regions.h"
+
 namespace fluxwalk::display {
 
 namespace {
@@ -20,20 +22,42 @@ Vec3d barycentric(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p
     return {1.0 - v - w, v, w};
 }
 
+// Which half of a region that was cut along `axis` holds the parameter.
+unsigned halfAt(const surface::Region& first, Axis axis, const Vec2d& uv) {
+    // The cut is the side of the first half that lies in the axis' direction, its corners counter-clockwise.
+    const Vec2d& from = first.corners[axis == Axis::x ? 1 : 2];
+    const Vec2d& to = first.corners[axis == Axis::x ? 2 : 3];
+    const Vec2d along = to - from;
+    const Vec2d towards = uv - from;
+    return along.x * towards.y - along.y * towards.x >= 0.0 ? 0 : 1;
+}
+
 std::uint32_t findCell(const surface::Surface& surface, const CellTable& table, std::uint32_t patch,
                        const Vec2d& uv) {
-    auto first = table.paths.begin() + table.firstCell[patch];
-    auto last = table.paths.begin() + table.firstCell[patch + 1];
+    auto first = table.places.begin() + table.firstCell[patch];
+    auto last = table.places.begin() + table.firstCell[patch + 1];
     surface::Region region = surface::wholePatch(surface.domain(patch));
-    for (unsigned level = 0; last - first > 1; ++level) {
+    // Keeps those whose step is the wanted one; steps come in order.
+    const auto narrow = [&](const auto& stepOf, unsigned wanted) {
+        first =
+            std::partition_point(first, last, [&](const CellPlace& place) { return stepOf(place) < wanted; });
+        last = std::partition_point(first, last,
+                                    [&](const CellPlace& place) { return stepOf(place) == wanted; });
+    };
+    for (unsigned level = 0; last - first > 1 && surface::pathLevel(first->path) > level; ++level) {
         const unsigned child = surface::childAt(surface, patch, region, uv);
         region = surface::childRegion(surface, patch, region, child);
-        first = std::partition_point(
-            first, last, [&](surface::Path path) { return surface::pathStep(path, level) < child; });
-        last = std::partition_point(
-            first, last, [&](surface::Path path) { return surface::pathStep(path, level) == child; });
+        narrow([level](const CellPlace& place) { return surface::pathStep(place.path, level); }, child);
     }
-    return static_cast<std::uint32_t>(first - table.paths.begin());
+    for (unsigned level = 0; last - first > 1; ++level) {
+        const Axis axis = axisOfStep(surface::pathStep(first->cuts, level));
+        const std::array<surface::Region, 2> halves = halfRegions(surface, patch, region, axis);
+        const unsigned half = halfAt(halves[0], axis, uv);
+        region = halves[half];
+        narrow([level](const CellPlace& place) { return surface::pathStep(place.cuts, level); },
+               cutStep(axis, half));
+    }
+    return static_cast<std::uint32_t>(first - table.places.begin());
 }
 
 }  // namespace

@@ -2,51 +2,13 @@
 
 #include <cmath>
 
+#include "core/display/cell_regions.h"
+
 namespace fluxwalk::display {
 
 namespace {
 
 using surface::Region;
-
-/// Regions of cells that come depth-first: only what differs from the last path is descended anew.
-class RegionCursor {
-  public:
-    explicit RegionCursor(const surface::Surface& surface) : surface_(surface) {}
-
-    const Region& at(std::uint32_t patch, surface::Path path) {
-        const unsigned levels = surface::pathLevel(path);
-        unsigned shared = 0;
-        if (patch == patch_) {
-            const unsigned common = std::min(levels, surface::pathLevel(path_));
-            while (shared < common && surface::pathStep(path, shared) == surface::pathStep(path_, shared)) {
-                ++shared;
-            }
-            depth_ = std::min(depth_, shared + 1);
-        } else {
-            whole_ = surface::wholePatch(surface_.domain(patch));
-            depth_ = 0;
-        }
-        for (; depth_ < levels; ++depth_) {
-            quarters_[depth_] = surface::childRegions(surface_, patch, regionAt(path, depth_));
-        }
-        patch_ = patch;
-        path_ = path;
-        return regionAt(path, levels);
-    }
-
-  private:
-    const Region& regionAt(surface::Path path, unsigned level) const {
-        return level == 0 ? whole_ : quarters_[level - 1][surface::pathStep(path, level - 1)];
-    }
-
-    const surface::Surface& surface_;
-    std::uint32_t patch_ = kNone;
-    surface::Path path_ = surface::kRootPath;
-    Region whole_;
-    /// Levels whose quarters are known along path_.
-    unsigned depth_ = 0;
-    std::array<std::array<Region, 4>, surface::kMaxLevel> quarters_;
-};
 
 class Collector {
   public:
@@ -63,7 +25,7 @@ class Collector {
         RegionCursor cursor(surface);
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             const Cell& cell = cells_[i];
-            const Region& region = cursor.at(cell.patch, cell.path);
+            const Region& region = cursor.at(cell);
             CellVertices& own = out_.cells[i];
             for (unsigned k = 0; k < cell.cornerCount; ++k) {
                 own.corners[k] = vertexAt(cell.points[k], cell.patch, [&] { return region.corners[k]; });

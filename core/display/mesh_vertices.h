@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "core/display/balance.h"
+#include "core/display/cell.h"
 
 namespace fluxwalk::display {
 

@@ -39,6 +39,11 @@ class PatchTopology {
 
     const surface::Surface& surface() const { return surface_; }
     std::uint32_t cornerCount(std::uint32_t patch) const { return patches_[patch].cornerCount; }
+    /// Whether no other patch meets this one in any part of a side, between corners `side` and `side` + 1.
+    bool isFree(std::uint32_t patch, std::uint32_t side) const {
+        const Edge& edge = edges_[patches_[patch].sides[side].edge];
+        return edge.patchCount == 1 && edge.middleCorner == kNone;
+    }
     /// Whether some texture coordinate of this set is not zero at a corner.
     bool hasTexcoords(unsigned set) const { return hasTexcoords_[set]; }
 

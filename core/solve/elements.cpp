@@ -54,7 +54,7 @@ MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh
     for (std::uint32_t patch = 0; patch + 1 < table.firstCell.size(); ++patch) {
         for (std::uint32_t cell = table.firstCell[patch]; cell < table.firstCell[patch + 1]; ++cell) {
             // Cells are what the display made of leaves: those themselves or parts of them, in their order.
-            const surface::Path path = table.paths[cell];
+            const surface::Path path = table.places[cell].path;
             NodeId leaf = h.patchNode(mesh.object, patch, mesh.back);
             unsigned level = 0;
             while (!h.isLeaf(leaf)) {

@@ -1,9 +1,12 @@
 #include <benchmark/benchmark.h>
 
 #include "core/display/interpolate.h"
+#include "core/scene/builders.h"
+#include "core/solve/solver.h"
 #include "tests/display/display_scenes.h"
 
-// Building the display mesh of one object with about 30,000 leaves: it runs on every snapshot.
+// Building the display mesh of one object with about 30,000 leaves: it runs on every snapshot. And of whole
+// scenes when the displayed roundness moves.
 namespace fluxwalk::display {
 namespace {
 
@@ -70,6 +73,41 @@ void topologyOfPatches(benchmark::State& state) {
     state.counters["patches"] = floor->patchCount();
 }
 BENCHMARK(topologyOfPatches)->Unit(benchmark::kMillisecond);
+
+void showAtAnotherAngle(benchmark::State& state, const scene::Scene& scene) {
+    solve::Options options;
+    options.error = 0.3;
+    solve::Solver solver(std::make_shared<scene::Scene>(scene), options, 0);
+    solver.solve({});
+    const auto angle = static_cast<double>(state.range(0));
+    std::size_t triangles = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        options.displayAngle = 15.0;
+        solver.setOptions(options);
+        solver.solve({});
+        solver.litMeshes();
+        options.displayAngle = angle;
+        solver.setOptions(options);
+        solver.solve({});
+        state.ResumeTiming();
+        triangles = 0;
+        for (const auto& mesh : solver.litMeshes()) {
+            triangles += mesh->triangles.size() / 3;
+        }
+    }
+    state.counters["triangles"] = static_cast<double>(triangles);
+}
+
+void galleryAtAnotherAngle(benchmark::State& state) {
+    showAtAnotherAngle(state, scene::buildGallery());
+}
+BENCHMARK(galleryAtAnotherAngle)->DenseRange(1, 4, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void cornellBoxAtAnotherAngle(benchmark::State& state) {
+    showAtAnotherAngle(state, *scene::buildScene("cornell-box"));
+}
+BENCHMARK(cornellBoxAtAnotherAngle)->Arg(4)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void lookUp(benchmark::State& state) {
     const auto floor = makeFloor(2, 4.0f);

@@ -160,11 +160,11 @@ TEST(DisplayMesh, NeighboursDifferByAtMostOneLevel) {
     const auto leaves = makeLeaves(*floor, slope, SplitRandomly{11, 7, 0.5}, 1);
     const auto meshes = build(*floor, leaves);
     const CellTable& table = meshes.tables[0];
-    EXPECT_GT(table.paths.size(), leaves.size());
+    EXPECT_GT(table.places.size(), leaves.size());
     std::vector<Square> squares;
     for (std::uint32_t patch = 0; patch < floor->patchCount(); ++patch) {
         for (std::uint32_t c = table.firstCell[patch]; c < table.firstCell[patch + 1]; ++c) {
-            const surface::Region region = surface::regionOf(*floor, patch, table.paths[c]);
+            const surface::Region region = surface::regionOf(*floor, patch, table.places[c].path);
             Vec3d low(1e9);
             Vec3d high(-1e9);
             for (const Vec2d& uv : region.corners) {
@@ -190,7 +190,7 @@ TEST(DisplayMesh, LeavesThatAreBalancedStayAsTheyAre) {
     const auto floor = makeFloor(2, 2.0f);
     const auto leaves = makeLeaves(*floor, slope, SplitUniformly{3}, 1);
     const auto meshes = build(*floor, leaves);
-    EXPECT_EQ(meshes.tables[0].paths.size(), leaves.size());
+    EXPECT_EQ(meshes.tables[0].places.size(), leaves.size());
     EXPECT_EQ(meshes.meshes[0]->triangles.size() / 3, 4 * leaves.size());
     // One vertex for each corner (coplanar patches share them) and one for each middle.
     EXPECT_EQ(meshes.meshes[0]->positions.size(), 17u * 17u + leaves.size());
@@ -252,7 +252,7 @@ TEST(DisplayMesh, DeepestLeavesKeepTheirNames) {
         *floor, [](const Vec3d&) { return 4.0; }, towardsCorner, 1);
     EXPECT_EQ(leaves.size(), 3u * surface::kMaxLevel + 1u);
     const auto meshes = build(*floor, leaves);
-    EXPECT_EQ(meshes.tables[0].paths.size(), leaves.size());
+    EXPECT_EQ(meshes.tables[0].places.size(), leaves.size());
     EXPECT_NEAR(totalArea(*meshes.meshes[0]), 1.0, 1e-6);
     for (const Rgb& value : meshes.meshes[0]->irradiance) {
         EXPECT_EQ(value, Rgb(4.0f, 2.0f, 1.0f));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 #include <stb/stb_image.h>
@@ -15,6 +16,7 @@
 #include "viewer/app/overlays.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/sight.h"
+#include "viewer/render/camera.h"
 
 namespace fluxwalk {
 namespace {
@@ -52,10 +54,10 @@ Difference compare(const std::vector<std::uint8_t>& a, const std::uint8_t* b) {
     return result;
 }
 
-/// One picture: a camera of the gallery, and what is shown.
+/// One picture: a camera of the gallery, or one of its own, and what is shown.
 struct Case {
     std::string name;
-    std::string camera;
+    std::variant<std::string, scene::Camera> camera;
     render::DrawSettings look{};
     std::optional<base::Vec2d> pick{};
 };
@@ -91,6 +93,9 @@ const std::vector<Case>& allCases() {
         overlaying("elements", true, false),
         overlaying("clusters", false, true),
         {"vases-pick", "vases", {}, base::Vec2d(300.0, 125.0)},
+        // From near, outlines show chords if there are any.
+        {"near-torus", render::lookAt({9.9, 1.4, 5.4}, {11.2, 1.4, 4.5}, 55.0)},
+        {"near-bowl", render::lookAt({6.1, 1.55, 5.2}, {6.2, 1.3, 5.95}, 45.0)},
     };
     return cases;
 }
@@ -111,21 +116,27 @@ class GalleryPictures : public ::testing::TestWithParam<Case> {
     }
 
     static std::vector<std::uint8_t> draw(gl::HeadlessKind kind, const Case& one) {
-        const auto camera =
-            std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
-                         [&](const scene::Camera& candidate) { return candidate.name == one.camera; });
-        if (camera == scene_->cameras.end()) {
-            ADD_FAILURE() << "no camera " << one.camera;
-            return {};
-        }
+        const scene::Camera camera = cameraOf(one);
         std::optional<image::Inspection> inspection;
         if (one.pick) {
-            inspection = image::inspectAlong(solver_->problem(), app::rayThrough(*camera, kSize, *one.pick));
+            inspection = image::inspectAlong(solver_->problem(), app::rayThrough(camera, kSize, *one.pick));
             EXPECT_TRUE(inspection);
         }
         const auto context = gl::makeHeadlessContext(kind);
-        return app::drawPicture(*context, scene_, *solver_->show(app::detailFor(one.look)), *camera, kSize,
+        return app::drawPicture(*context, scene_, *solver_->show(app::detailFor(one.look)), camera, kSize,
                                 one.look, {inspection ? &*inspection : nullptr, {true, true}});
+    }
+
+    static scene::Camera cameraOf(const Case& one) {
+        if (const auto* own = std::get_if<scene::Camera>(&one.camera)) {
+            return *own;
+        }
+        const std::string& name = std::get<std::string>(one.camera);
+        const auto found =
+            std::find_if(scene_->cameras.begin(), scene_->cameras.end(),
+                         [&name](const scene::Camera& candidate) { return candidate.name == name; });
+        EXPECT_NE(found, scene_->cameras.end()) << name;
+        return found != scene_->cameras.end() ? *found : scene::Camera{};
     }
 
     static inline std::shared_ptr<const scene::Scene> scene_;

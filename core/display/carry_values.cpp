@@ -1,4 +1,4 @@
-#include "core/display/curvature.h"
+#include "core/display/carry_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,70 +6,6 @@
 namespace fluxwalk::display {
 
 namespace {
-
-using surface::Region;
-
-class CurvatureSplitter {
-  public:
-    CurvatureSplitter(const PatchTopology& topology, double angle)
-        : topology_(topology), surface_(topology.surface()), angle_(angle) {}
-
-    std::vector<Cell> run(std::span<const Cell> cells) {
-        std::vector<Cell> out;
-        bool isSplit = false;
-        for (std::uint32_t i = 0; i < cells.size(); ++i) {
-            const Cell& cell = cells[i];
-            const std::size_t before = out.size();
-            if (surface_.isPlanar(cell.patch)) {
-                out.push_back(makeCell(topology_, cell.patch, cell.path, i));
-            } else {
-                split(cell, i, cell.path, surface::regionOf(surface_, cell.patch, cell.path), kMaxExtraLevels,
-                      out);
-            }
-            isSplit = isSplit || out.size() > before + 1;
-        }
-        return isSplit ? out : std::vector<Cell>{};
-    }
-
-  private:
-    void split(const Cell& cell, std::uint32_t source, surface::Path path, const Region& region,
-               unsigned levels, std::vector<Cell>& out) const {
-        if (levels == 0 || surface::pathLevel(path) == surface::kMaxLevel ||
-            (surface_.bounds(cell.patch, region).normals.halfAngle <= angle_ &&
-             !hasBentEdge(cell.patch, region))) {
-            out.push_back(makeCell(topology_, cell.patch, path, source));
-            return;
-        }
-        const std::array<Region, 4> quarters = surface::childRegions(surface_, cell.patch, region);
-        for (unsigned k = 0; k < 4; ++k) {
-            split(cell, source, surface::childPath(path, k), quarters[k], levels - 1, out);
-        }
-    }
-
-    // Whether an edge turns by more than twice the angle, as a disk's rim does though its normals do not.
-    bool hasBentEdge(std::uint32_t patch, const Region& region) const {
-        std::array<Vec3d, 4> corners{};
-        for (unsigned k = 0; k < region.cornerCount; ++k) {
-            corners[k] = surface_.evaluate(patch, region.corners[k]).position;
-        }
-        for (unsigned k = 0; k < region.cornerCount; ++k) {
-            const unsigned next = (k + 1) % region.cornerCount;
-            const base::Vec2d uv = surface_.splitPoint(patch, region.corners[k], region.corners[next]);
-            const double halfChord = 0.5 * glm::distance(corners[k], corners[next]);
-            const double sagitta =
-                glm::distance(surface_.evaluate(patch, uv).position, 0.5 * (corners[k] + corners[next]));
-            // An arc that turns by 2 a has a sagitta of tan(a / 2) half chords.
-            if (sagitta > std::tan(0.5 * std::min(angle_, 3.0)) * halfChord) {
-                return true;
-            }
-        }
-        return false;
-    }
-
-    const PatchTopology& topology_;
-    const surface::Surface& surface_;
-    double angle_;
-};
 
 /// Reads one coarse cell at coordinates of its own, which run from 0 at corner 0 to 1 at its neighbours.
 class CellReader {
@@ -86,8 +22,7 @@ class CellReader {
                               : 0.5f * (corners_[k] + corners_[(k + 1) % count]);
         }
         center_ = mesh.values.centers[index];
-        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): bit_width is unknown to it
-        scale_ = 1.0 / (kGridSize >> surface::pathLevel(cell_.path));
+        scale_ = 1.0 / cell_.extent.x;
     }
 
     Rgb at(const GridPoint& p) const {
@@ -156,11 +91,6 @@ class CellReader {
 };
 
 }  // namespace
-
-std::vector<Cell> refineByCurvature(const PatchTopology& topology, std::span<const Cell> cells,
-                                    double angle) {
-    return CurvatureSplitter(topology, angle).run(cells);
-}
 
 MeshValues carryValues(const ValuedMesh& coarse, std::span<const Cell> cells, const MeshVertices& fine) {
     MeshValues out;

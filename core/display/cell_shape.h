@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+
+#include "core/display/cell.h"
+
+namespace fluxwalk::display {
+
+/// A quad region of a surface at its corners, the middles of its edges and its middle: the points that its
+/// triangles may join.
+class CellShape {
+  public:
+    CellShape(const surface::Surface& surface, std::uint32_t patch, const surface::Region& region);
+
+    /// Length of the longer edge along an axis, by way of its middle.
+    double longestAlong(Axis axis) const;
+    /// How far the normal turns along an axis, at most, in radians (small turns; larger ones are larger).
+    double turnAlong(Axis axis) const;
+    /// Rise of side k, between corners k and k + 1, over its chord.
+    double riseOf(unsigned side) const;
+    /// The same relative to half of the chord: tan(a / 2) for an arc that turns by 2 a.
+    double bendOf(unsigned side) const;
+    /// The same relative to the length across, where that is shorter.
+    double riseOverWidth(unsigned side) const;
+    /// Whether one end along the axis is a point, as at the pole of a disk and the apex of a cone.
+    bool endsInPoint(Axis axis) const;
+    /// Axis along which it is longer, if by more than `ratio`, in the mean over the edges.
+    bool isLonger(Axis axis, double ratio) const;
+    /// Whether an angle of its fan is below the one with this cosine, whatever hangs on its edges.
+    bool hasAngleBelow(double cosine) const;
+
+  private:
+    const Vec3d& corner(unsigned k) const { return positions_[2 * (k % 4)]; }
+    const Vec3d& middle(unsigned k) const { return positions_[2 * (k % 4) + 1]; }
+    double lengthOf(unsigned side) const {
+        return glm::distance(corner(side), middle(side)) + glm::distance(middle(side), corner(side + 1));
+    }
+    double meanAlong(Axis axis) const;
+
+    /// Corners and middles in turn around the border, then the middle.
+    std::array<Vec3d, 9> positions_;
+    std::array<Vec3d, 9> normals_;
+};
+
+}  // namespace fluxwalk::display

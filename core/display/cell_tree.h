@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/display/cell.h"
+
+namespace fluxwalk::display {
+
+/// Cells that are split until none has more than one vertex between the ends of an edge. Children follow
+/// later in the vector than their parents.
+class CellTree {
+  public:
+    /// Takes the cells as roots and keeps references to all. Points are numbered by number().
+    CellTree(const PatchTopology& topology, PointTable& points, std::vector<Cell>& cells)
+        : topology_(topology), points_(points), cells_(cells), rootCount_(cells.size()) {}
+
+    void number(std::size_t index);
+    /// Numbers a point inside a cell, which must become a corner of what the cell is cut into, or the middle
+    /// of an edge there.
+    void numberCenter(const Cell& cell);
+
+    /// The first side of a leaf, if any, with more than one vertex between its ends, if it can be split
+    /// there; otherwise sets its middles. A leaf has its final middles when a whole pass finds no such side.
+    std::optional<unsigned> findCrowdedSide(std::size_t index);
+
+    /// Children are not numbered.
+    void quarter(std::size_t index);
+    void halve(std::size_t index, Axis axis);
+
+    /// Leaves only, depth-first.
+    void keepLeaves();
+
+  private:
+    std::uint32_t find(const Cell& cell, const GridPoint& p) const {
+        return points_.find(topology_.keyOf(cell.patch, p));
+    }
+
+    const PatchTopology& topology_;
+    PointTable& points_;
+    std::vector<Cell>& cells_;
+    std::size_t rootCount_;
+};
+
+}  // namespace fluxwalk::display
