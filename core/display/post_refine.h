@@ -20,7 +20,7 @@ struct RefineOptions {
     /// angle (radians), except at a pole; 0 for never. Those of planar patches into kMaxPlanarStrips at most.
     double leastAngle = 0.2705;
     /// Once there are so many cells, none is cut for its shape: thin wires would take millions.
-    std::size_t mostCells = 1u << 14;
+    std::size_t mostCells = 1u << 12;
 };
 inline constexpr unsigned kMaxExtraLevels = 7;
 inline constexpr unsigned kMaxPlanarStrips = 4;

@@ -81,6 +81,7 @@ std::vector<Level> measureLevels(const Setting& setting, solve::ErrorOf what, do
         solve::Options options;
         options.error = error;
         options.errorOf = what;
+        options.clusterLinks = setting.clusterLinks;
         // Any threshold of the user's keeps the loop from stopping by its own estimate.
         options.threshold = std::numeric_limits<double>::min();
         Stopwatch watch;
@@ -131,6 +132,7 @@ ClosedLoop measureClosedLoop(const Setting& setting, solve::ErrorOf what, double
     solve::Options options;
     options.error = error;
     options.errorOf = what;
+    options.clusterLinks = setting.clusterLinks;
     options.timeLimit = setting.secondsLimit;
     for (unsigned i = 0; i < setting.repeats; ++i) {
         const Stopwatch watch;

@@ -21,6 +21,7 @@ struct Setting {
     unsigned threads = 0;
     unsigned repeats = 3;      ///< the fastest counts: other work on the machine only adds
     double secondsLimit = 20;  ///< of one run
+    solve::ClusterLinks clusterLinks = solve::ClusterLinks::automatic;
 };
 
 /// The solution in all three readings.

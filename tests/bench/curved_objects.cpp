@@ -25,6 +25,7 @@ struct Arguments {
     unsigned threads = 0;
     double secondsLimit = 8.0;
     bool makesReference = false;
+    bool takesClusters = false;
     std::uint64_t paths = 100'000;
 };
 
@@ -125,7 +126,10 @@ Cost costAt(const Variant& variant, std::span<const Level> levels, const Target&
 }
 
 std::vector<Level> solveVariant(const Arguments& arguments, const Variant& variant) {
-    const Setting setting{variant.scene, &variant.reference, arguments.threads, 1, arguments.secondsLimit};
+    const Setting setting{
+        variant.scene,          &variant.reference,
+        arguments.threads,      1,
+        arguments.secondsLimit, arguments.takesClusters ? solve::ClusterLinks::on : solve::ClusterLinks::off};
     constexpr double kGathered = 0.03;
     constexpr double kDisplayed = 0.05;
     std::vector<Level> levels = measureLevels(setting, solve::ErrorOf::gathered, kGathered);
@@ -241,6 +245,7 @@ int main(int argc, char** argv) {
     app.add_option("--reference", arguments.reference, "Table of the true values");
     app.add_option("--json", arguments.json, "File for the numbers");
     app.add_option("--threads", arguments.threads, "0: all");
+    app.add_flag("--clusters", arguments.takesClusters, "Links may end at clusters, in both");
     app.add_option("--limit", arguments.secondsLimit, "Seconds that one run may take")
         ->check(CLI::PositiveNumber);
     app.add_flag("--make-reference", arguments.makesReference, "Trace the reference instead");
