@@ -40,6 +40,8 @@ ExitCode runMeasure(const MeasureArguments& arguments) {
 Command measureCommand() {
     return {"measure", "Solve a scene and write the illuminance at sensors in lux.", [](CLI::App& app) {
                 const auto arguments = std::make_shared<MeasureArguments>();
+                // Sensors gather through the links: the mesh may be coarser than their values.
+                arguments->solver.options.errorOf = solve::ErrorOf::gathered;
                 addSceneOptions(app, arguments->scene);
                 app.add_option("--sensors", arguments->sensors,
                                "Points and normals, on surfaces or in free space: a header and rows "

@@ -119,6 +119,19 @@ TEST_F(Commands, TimeLimitKeepsWhatIsSolved) {
     EXPECT_GT(std::filesystem::file_size(path("lit.glb")), 1000u);
 }
 
+// Values at sensors are right long before the mesh is.
+TEST_F(Commands, MeasureStopsAtTheErrorOfItsSensors) {
+    const std::string sensors = write("in.csv", "x,y,z,nx,ny,nz\n1,1,1,0,1,0\n");
+    const auto linksOf = [](const Result& result) {
+        return nlohmann::json::parse(result.out).at("counters").at("links").get<double>();
+    };
+    const double measured = linksOf(run(
+        {"measure", "cornell-box", "--sensors", sensors, "-o", path("o.csv"), "--error", "3%", "--json"}));
+    const double solved =
+        linksOf(run({"solve", "cornell-box", "-o", path("o.glb"), "--error", "3%", "--json"}));
+    EXPECT_LT(2.0 * measured, solved);
+}
+
 TEST_F(Commands, MeasureGivesTheClosedFormBetweenSquares) {
     // At the middle of a unit square 1 m from a parallel one, each quarter of which gives (1/pi) s atan s
     // with s = x / sqrt(1 + x^2), x = 1/2 (Howell's catalogue, B-4). Area and exitance: 1 m2 holds all the
