@@ -24,8 +24,9 @@ struct MeshOptions {
     /// Quads longer than wide are cut into strips until no triangle has a smaller angle (radians), but at
     /// poles; 0 for never.
     double leastAngle = 0.2705;
-    /// Once a side of an object has so many cells, none is cut for its shape: thin wires would take millions.
-    std::size_t mostCellsForShape = 1u << 12;
+    /// Once a side of an object has so many cells for each patch, none is cut for its shape: thin wires would
+    /// take hundreds of thousands.
+    std::size_t mostCellsForShape = 1u << 10;
     /// Which sets of texture coordinates to fill; those of a surface that has none stay empty.
     std::array<bool, 2> texcoords{true, true};
 };

@@ -48,6 +48,7 @@ class Refiner {
           surface_(topology.surface()),
           sources_(cells),
           options_(options),
+          mostCells_(options.mostCellsAPatch * topology.surface().patchCount()),
           bend_(std::tan(0.5 * std::min(options.curvatureAngle, 3.0))),
           cosine_(std::cos(options.leastAngle)),
           // Halved across, a cell that is longer than this would have to be cut for its shape in any case.
@@ -179,7 +180,7 @@ class Refiner {
             const bool isOnlyAcross = along == Axis::x ? cuts.y && !cuts.x : cuts.x && !cuts.y;
             const double ratio = shape.longestAlong(along) / shape.longestAlong(across);
             if (isOnlyAcross && longFirst_ > 0.0 && ratio > longFirst_ && ratio < kVeryLong &&
-                leafCount_ < options_.mostCells / kLaterCuts && mayCutForShape(cell, shape, along)) {
+                leafCount_ < mostCells_ / kLaterCuts && mayCutForShape(cell, shape, along)) {
                 return {along == Axis::x, along == Axis::y};
             }
         }
@@ -209,7 +210,7 @@ class Refiner {
     void cutForShape() {
         for (; shaped_ < cells_.size(); ++shaped_) {
             if (cells_[shaped_].childCount != 0 || !isQuad(shaped_) || options_.leastAngle <= 0.0 ||
-                leafCount_ >= options_.mostCells) {
+                leafCount_ >= mostCells_) {
                 continue;
             }
             const CellShape shape = shapeOf(shaped_);
@@ -265,6 +266,7 @@ class Refiner {
     const surface::Surface& surface_;
     std::span<const Cell> sources_;
     const RefineOptions& options_;
+    std::size_t mostCells_;
     double bend_;
     double cosine_;
     double longFirst_;

@@ -19,8 +19,9 @@ struct RefineOptions {
     /// Quads that are longer than wide are cut across until no triangle about their middle has a smaller
     /// angle (radians), except at a pole; 0 for never. Those of planar patches into kMaxPlanarStrips at most.
     double leastAngle = 0.2705;
-    /// Once there are so many cells, none is cut for its shape: thin wires would take millions.
-    std::size_t mostCells = 1u << 12;
+    /// Once there are so many cells for each patch of the object, none is cut for its shape: thin wires would
+    /// take hundreds of thousands.
+    std::size_t mostCellsAPatch = 1u << 10;
 };
 inline constexpr unsigned kMaxExtraLevels = 7;
 inline constexpr unsigned kMaxPlanarStrips = 4;

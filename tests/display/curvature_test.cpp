@@ -159,7 +159,7 @@ TEST_P(Curvature, carriesTheLightThatWasShown) {
 TEST_P(Curvature, showsTheSameLightBetweenVertices) {
     const auto leaves = makeLeaves(*surface_, slope, SplitUniformly{3}, 2);
     MeshOptions options;
-    options.mostCellsForShape = 1u << 14;
+    options.mostCellsForShape = 1u << 12;
     const DisplayMeshes cut = buildDisplayMeshes(PatchTopology(*surface_), 0, 0, leaves, options);
     options.leastAngle = 0.0;
     const DisplayMeshes whole = buildDisplayMeshes(PatchTopology(*surface_), 0, 0, leaves, options);
@@ -346,7 +346,7 @@ TEST(CurvatureShapes, wiresDoNotTakeMillions) {
     const surface::Cylinder wire(base::Mat4d(1.0), 0.001, 10.0);
     const auto leaves = makeLeaves(wire, slope, kNever, 1);
     MeshOptions options;
-    options.mostCellsForShape = 4096;
+    options.mostCellsForShape = 1024;
     const DisplayMeshes built = buildDisplayMeshes(PatchTopology(wire), 0, 0, leaves, options);
     EXPECT_EQ(built.tables[0].places.size(), 4096u);
     EXPECT_EQ(checkEdges(*built.meshes[0]).eulerCharacteristic(), 0);
