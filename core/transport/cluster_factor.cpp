@@ -215,13 +215,7 @@ PairFactor computeClusterFactor(const hierarchy::Hierarchy& hierarchy, NodeId a,
     if (isClusterA && isClusterB) {
         return betweenClusters(hierarchy, a, b);
     }
-    if (isClusterA) {
-        return withElement(hierarchy, a, b);
-    }
-    PairFactor factor = withElement(hierarchy, b, a);
-    std::swap(factor.gradientA, factor.gradientB);
-    std::swap(factor.spreadA, factor.spreadB);
-    return factor;
+    return isClusterA ? withElement(hierarchy, a, b) : withElement(hierarchy, b, a).swapped();
 }
 
 }  // namespace fluxwalk::transport

@@ -18,6 +18,9 @@ struct PairFactor {
     double spreadA = 0.0;
     double spreadB = 0.0;
     std::uint32_t evaluations = 0;  ///< kernel evaluations, points times edges or points
+
+    /// The same with a and b exchanged.
+    PairFactor swapped() const { return {coupling, gradientB, gradientA, spreadB, spreadA, evaluations}; }
 };
 
 /// Linear fit of values at the eight points of an element.

@@ -188,13 +188,7 @@ PairFactor computeIsotropicFactor(const Hierarchy& hierarchy, NodeId a, NodeId b
     if (isClusterA && hierarchy.kind(b) == NodeKind::cluster) {
         return betweenClusters(hierarchy.shape(a), hierarchy.shape(b));
     }
-    if (isClusterA) {
-        return withElement(hierarchy, a, b);
-    }
-    PairFactor factor = withElement(hierarchy, b, a);
-    std::swap(factor.gradientA, factor.gradientB);
-    std::swap(factor.spreadA, factor.spreadB);
-    return factor;
+    return isClusterA ? withElement(hierarchy, a, b) : withElement(hierarchy, b, a).swapped();
 }
 
 float attenuate(const Hierarchy& hierarchy, NodeId a, NodeId b) {

@@ -8,8 +8,7 @@
 #include "core/solve/cluster_exchange.h"
 #include "core/solve/options_table.h"
 #include "core/solve/solver.h"
-#include "tests/support/hard_scenes.h"
-#include "tests/support/solving.h"
+#include "tests/solve/linked_cloud.h"
 
 // Clusters as isotropic volumes: what the model keeps, and what it costs.
 
@@ -31,16 +30,6 @@ solve::Options withModel(ClusterModel model) {
     return options;
 }
 
-std::unique_ptr<Problem> makeLinked(const solve::Options& options, unsigned threads = 2) {
-    auto problem = test::makeProblem(test::buildCloud(200, 4), options, threads);
-    for (const double threshold : {1e-2, 1e-3, 2e-4}) {
-        test::refine(*problem, threshold);
-        test::converge(*problem, 1e-3);
-    }
-    EXPECT_GT(problem->links.clusterLinks, 500u);
-    return problem;
-}
-
 void expectSameBits(const Problem& one, const Problem& other) {
     ASSERT_EQ(one.links.links.size(), other.links.links.size());
     for (std::size_t i = 0; i < one.links.links.size(); ++i) {
@@ -53,10 +42,6 @@ void expectSameBits(const Problem& one, const Problem& other) {
     for (std::uint32_t i = 0; i < one.hierarchy.nodeCount(); ++i) {
         ASSERT_EQ(one.hierarchy.light(NodeId{i}).radiosity, other.hierarchy.light(NodeId{i}).radiosity);
     }
-}
-
-float randomValue(NodeId id, std::uint64_t key) {
-    return static_cast<float>(base::toUnit(base::mix(base::combine(key, base::index(id)))));
 }
 
 // Mean and root mean square of what sensors all over read beside what they should, as parts of the mean.
@@ -108,17 +93,18 @@ TEST(Isotropic, isNotTheDefault) {
     solve::Options options;
     option->set(options, solve::parseOption(*option, "isotropic"));
     EXPECT_EQ(options.clusterModel, ClusterModel::isotropic);
-    expectSameBits(*makeLinked(test::withClusterLinks()), *makeLinked(withModel(ClusterModel::oriented)));
+    expectSameBits(*test::makeLinkedCloud(test::withClusterLinks()),
+                   *test::makeLinkedCloud(withModel(ClusterModel::oriented)));
 }
 
 TEST(Isotropic, isTheSameForAnyNumberOfThreads) {
-    expectSameBits(*makeLinked(withModel(ClusterModel::isotropic), 1),
-                   *makeLinked(withModel(ClusterModel::isotropic), 8));
+    expectSameBits(*test::makeLinkedCloud(withModel(ClusterModel::isotropic), 1),
+                   *test::makeLinkedCloud(withModel(ClusterModel::isotropic), 8));
 }
 
 // What arrives through all links of clusters is what they carry, and every end shows its mean.
 TEST(Isotropic, allThatIsSentArrivesEvenly) {
-    const auto problem = makeLinked(withModel(ClusterModel::isotropic));
+    const auto problem = test::makeLinkedCloud(withModel(ClusterModel::isotropic));
     const hierarchy::Hierarchy& h = problem->hierarchy;
     solve::ClusterExchange exchange(*problem, problem->rowScale);
     std::vector<Rgb> out(h.patches().size());
@@ -151,27 +137,15 @@ TEST(Isotropic, allThatIsSentArrivesEvenly) {
 
 // Sweeps see blocks of patches as they are renewed: radiosities of clusters must follow.
 TEST(Isotropic, transportIsItsOwnAdjoint) {
-    const auto problem = makeLinked(withModel(ClusterModel::isotropic));
-    const hierarchy::Hierarchy& h = problem->hierarchy;
-    const auto u = [](NodeId id) { return randomValue(id, 1); };
-    const auto v = [](NodeId id) { return randomValue(id, 2); };
-    const std::vector<double> tu = test::transport(*problem, u);
-    const std::vector<double> tv = test::transport(*problem, v);
-    double utv = 0.0;
-    double vtu = 0.0;
-    for (const NodeId id : test::leavesOf(h)) {
-        const auto area = static_cast<double>(h.shape(id).exposedArea());
-        utv += area * static_cast<double>(u(id)) * tv[base::index(id)];
-        vtu += area * static_cast<double>(v(id)) * tu[base::index(id)];
-    }
-    EXPECT_NEAR(utv / vtu, 1.0, 1e-5);
+    const auto problem = test::makeLinkedCloud(withModel(ClusterModel::isotropic));
+    EXPECT_NEAR(test::adjointRatio(*problem), 1.0, 1e-5);
 }
 
 // All glow and reflect alike in a closed room: everything gets 1 / (1 - .5) = 2. Fog takes light from pairs
 // of nodes and gives it to none; here it is as thick as the surfaces that get light themselves.
 TEST(Isotropic, closedFurnaceIsNearlyUniform) {
     for (const ClusterModel model : {ClusterModel::oriented, ClusterModel::isotropic}) {
-        const auto problem = makeLinked(withModel(model));
+        const auto problem = test::makeLinkedCloud(withModel(model));
         hierarchy::Hierarchy& h = problem->hierarchy;
         test::setReflectance(*problem, .5f);
         for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
