@@ -211,14 +211,16 @@ bool touchesPole(const surface::Surface& surface, std::uint32_t patch, const sur
     return false;
 }
 
+// Wires stop at a number of cells by default; they too would become well shaped.
 TEST_P(Curvature, trianglesAreWellShaped) {
+    const bool isWire = GetParam().name == "needle" || GetParam().name == "thinTorus";
     for (const double angle : {10.0, 5.0}) {
         for (std::uint64_t seed = 0; seed < (angle > 9.0 ? 3u : 1u); ++seed) {
             const auto leaves = seed == 0 ? makeLeaves(*surface_, slope, kNever, 1)
                                           : makeLeaves(*surface_, slope, SplitRandomly{seed, 3}, 1);
             MeshOptions options;
             options.curvatureAngle = angle * kDegree;
-            options.mostCellsForShape = 1u << 20;
+            options.mostCellsForShape = isWire ? 1u << 20 : options.mostCellsForShape;
             const DisplayMeshes built = buildDisplayMeshes(PatchTopology(*surface_), 0, 0, leaves, options);
             const scene::LitMesh& mesh = *built.meshes[0];
             const CellTable& table = built.tables[0];
