@@ -147,7 +147,8 @@ TEST(Split, namesRegionsAndParents) {
             EXPECT_EQ(below.back, name.back);
             EXPECT_EQ(below.path, surface::childPath(name.path, c));
             EXPECT_EQ(built.tree.parent(child), id);
-            const surface::Region part = surface::childRegion(built.tree.surfaceOf(id), name.patch, whole, c);
+            const surface::Region part = surface::childRegion(built.tree.surfaceOf(id), name.patch, whole,
+                                                              built.tree.shape(id).split, c);
             EXPECT_EQ(built.tree.region(child).corners, part.corners);
         }
     });
