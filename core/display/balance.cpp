@@ -16,7 +16,7 @@ void balance(const PatchTopology& topology, PointTable& points, std::vector<Cell
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (cells[i].childCount == 0 && tree.findCrowdedSide(i)) {
                 const std::size_t first = cells.size();
-                tree.quarter(i);
+                tree.split(i);
                 for (std::size_t child = first; child < cells.size(); ++child) {
                     tree.number(child);
                 }

@@ -22,7 +22,7 @@ class CellReader {
                               : 0.5f * (corners_[k] + corners_[(k + 1) % count]);
         }
         center_ = mesh.values.centers[index];
-        scale_ = 1.0 / cell_.extent.x;
+        scale_ = 1.0 / base::Vec2d(cell_.extent.x, cell_.extent.y);
     }
 
     Rgb at(const GridPoint& p) const {
@@ -87,7 +87,7 @@ class CellReader {
     std::array<Rgb, 4> corners_{};
     std::array<Rgb, 4> middles_{};
     Rgb center_{};
-    double scale_ = 1.0;
+    base::Vec2d scale_{1.0};
 };
 
 }  // namespace

@@ -15,8 +15,15 @@ GridPoint stepFrom(const GridPoint& p, const GridPoint& step, const GridPoint& e
     return inverted ? GridPoint{p.x - x, p.y - y} : GridPoint{p.x + x, p.y + y};
 }
 
-// Moves a cell's place to that of its quarter.
-void descend(Cell& cell, unsigned child) {
+// Moves a cell's place to that of its part.
+void descend(Cell& cell, surface::Split split, unsigned child) {
+    if (split != surface::Split::quarters) {
+        const bool alongX = split == surface::Split::stripsAlongU;
+        std::uint32_t& extent = alongX ? cell.extent.x : cell.extent.y;
+        extent /= 4;
+        (alongX ? cell.origin.x : cell.origin.y) += child * extent;
+        return;
+    }
     cell.extent = {cell.extent.x / 2, cell.extent.y / 2};
     const auto& steps = cell.cornerCount == 4 ? kQuadSteps : kTriangleSteps;
     cell.origin = stepFrom(cell.origin, steps[child], cell.extent, cell.inverted);
@@ -51,18 +58,19 @@ Cell makeCell(const PatchTopology& topology, std::uint32_t patch, surface::Path 
     cell.source = source;
     cell.extent = {kGridSize, kGridSize};
     cell.cornerCount = static_cast<std::uint8_t>(topology.cornerCount(patch));
+    const surface::Strips strips = topology.strips(patch);
     const unsigned levels = surface::pathLevel(path);
     for (unsigned level = 0; level < levels; ++level) {
-        descend(cell, surface::pathStep(path, level));
+        descend(cell, surface::splitAt(strips, level), surface::pathStep(path, level));
     }
     return cell;
 }
 
-Cell quarterOf(const Cell& cell, unsigned child) {
-    Cell quarter = childOf(cell);
-    quarter.path = surface::childPath(cell.path, child);
-    descend(quarter, child);
-    return quarter;
+Cell partOf(const Cell& cell, surface::Split split, unsigned child) {
+    Cell part = childOf(cell);
+    part.path = surface::childPath(cell.path, child);
+    descend(part, split, child);
+    return part;
 }
 
 Cell halfOf(const Cell& cell, Axis axis, unsigned half) {

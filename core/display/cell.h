@@ -11,7 +11,7 @@ namespace fluxwalk::display {
 /// Direction in a patch's grid in which a cell is cut in two.
 enum class Axis : std::uint8_t { x, y };
 
-/// A display leaf: a leaf of the solution, a quarter that balancing made of one, or what post-refinement cut
+/// A display leaf: a leaf of the solution, a part that balancing made of one, or what post-refinement cut
 /// out of those.
 struct Cell {
     surface::Path path = surface::kRootPath;
@@ -47,8 +47,8 @@ std::array<GridPoint, 4> cornersOf(const Cell& cell);
 /// Cell of the leaf that `path` names; its points are not numbered yet.
 Cell makeCell(const PatchTopology& topology, std::uint32_t patch, surface::Path path, std::uint32_t source);
 
-/// Quarter `child` of a cell that is not cut. Corners are those of surface::childRegion.
-Cell quarterOf(const Cell& cell, unsigned child);
+/// Part `child` of a cell that is not cut in two. Corners are those of surface::childRegion.
+Cell partOf(const Cell& cell, surface::Split split, unsigned child);
 
 /// Half 0 or 1 of a quad along `axis`.
 Cell halfOf(const Cell& cell, Axis axis, unsigned half);

@@ -40,9 +40,9 @@ const Region& RegionCursor::at(const Cell& cell) {
     const unsigned cuts = pathLevel(cell.cuts);
     if (cell.patch != last_.patch) {
         whole_ = surface::wholePatch(surface_.domain(cell.patch));
-        quarterDepth_ = 0;
+        partDepth_ = 0;
     } else {
-        quarterDepth_ = std::min(quarterDepth_, countCommonSteps(cell.path, last_.path) + 1);
+        partDepth_ = std::min(partDepth_, countCommonSteps(cell.path, last_.path) + 1);
     }
     // Halves of a cell hold both: a differing last step needs none anew, unless its axis differs.
     const bool isSameLeaf = cell.patch == last_.patch && cell.path == last_.path;
@@ -51,9 +51,9 @@ const Region& RegionCursor::at(const Cell& cell) {
         isSameLeaf && common < std::min(cuts, pathLevel(last_.cuts)) &&
         axisOfStep(pathStep(cell.cuts, common)) == axisOfStep(pathStep(last_.cuts, common));
     halfDepth_ = std::min(halfDepth_, common + (isSibling ? 1u : 0u));
-    for (; quarterDepth_ < levels; ++quarterDepth_) {
-        quarters_[quarterDepth_] =
-            surface::childRegions(surface_, cell.patch, quarterAt(cell.path, quarterDepth_));
+    for (; partDepth_ < levels; ++partDepth_) {
+        parts_[partDepth_] = surface::childRegions(surface_, cell.patch, partAt(cell.path, partDepth_),
+                                                   surface::splitAt(surface_, cell.patch, partDepth_));
     }
     for (; halfDepth_ < cuts; ++halfDepth_) {
         halves_[halfDepth_] = halfRegions(surface_, cell.patch, halfAt(cell, halfDepth_),

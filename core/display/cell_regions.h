@@ -7,7 +7,7 @@
 namespace fluxwalk::display {
 
 /// Both halves of a quad region along `axis`. Along y first and then along x, they make the quarters that
-/// surface::childRegions makes.
+/// surface::childRegions makes; twice along one, its strips.
 std::array<surface::Region, 2> halfRegions(const surface::Surface& surface, std::uint32_t patch,
                                            const surface::Region& region, Axis axis);
 
@@ -25,21 +25,21 @@ class RegionCursor {
         surface::Path cuts = surface::kRootPath;
     };
 
-    const surface::Region& quarterAt(surface::Path path, unsigned level) const {
-        return level == 0 ? whole_ : quarters_[level - 1][surface::pathStep(path, level - 1)];
+    const surface::Region& partAt(surface::Path path, unsigned level) const {
+        return level == 0 ? whole_ : parts_[level - 1][surface::pathStep(path, level - 1)];
     }
     const surface::Region& halfAt(const Cell& cell, unsigned level) const {
-        return level == 0 ? quarterAt(cell.path, surface::pathLevel(cell.path))
+        return level == 0 ? partAt(cell.path, surface::pathLevel(cell.path))
                           : halves_[level - 1][surface::pathStep(cell.cuts, level - 1) & 1u];
     }
 
     const surface::Surface& surface_;
     Place last_;
     surface::Region whole_;
-    /// Levels whose quarters and halves are known on the way to the last cell.
-    unsigned quarterDepth_ = 0;
+    /// Levels whose parts and halves are known on the way to the last cell.
+    unsigned partDepth_ = 0;
     unsigned halfDepth_ = 0;
-    std::array<std::array<surface::Region, 4>, surface::kMaxLevel> quarters_;
+    std::array<std::array<surface::Region, 4>, surface::kMaxLevel> parts_;
     std::array<std::array<surface::Region, 2>, kMaxCuts> halves_;
 };
 

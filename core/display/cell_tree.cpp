@@ -34,12 +34,14 @@ std::optional<unsigned> CellTree::findCrowdedSide(std::size_t index) {
     return std::nullopt;
 }
 
-void CellTree::quarter(std::size_t index) {
+void CellTree::split(std::size_t index) {
     const Cell parent = cells_[index];
+    const surface::Split split =
+        surface::splitAt(topology_.strips(parent.patch), surface::pathLevel(parent.path));
     cells_[index].firstChild = static_cast<std::uint32_t>(cells_.size());
     cells_[index].childCount = 4;
     for (unsigned k = 0; k < 4; ++k) {
-        cells_.push_back(quarterOf(parent, k));
+        cells_.push_back(partOf(parent, split, k));
     }
 }
 

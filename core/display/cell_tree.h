@@ -24,8 +24,9 @@ class CellTree {
     /// there; otherwise sets its middles. A leaf has its final middles when a whole pass finds no such side.
     std::optional<unsigned> findCrowdedSide(std::size_t index);
 
-    /// Children are not numbered.
-    void quarter(std::size_t index);
+    /// In four, as elements are. Children are not numbered.
+    void split(std::size_t index);
+    /// In two. Children are not numbered.
     void halve(std::size_t index, Axis axis);
 
     /// Leaves only, depth-first.

@@ -45,8 +45,9 @@ std::uint32_t findCell(const surface::Surface& surface, const CellTable& table, 
                                     [&](const CellPlace& place) { return stepOf(place) == wanted; });
     };
     for (unsigned level = 0; last - first > 1 && surface::pathLevel(first->path) > level; ++level) {
-        const unsigned child = surface::childAt(surface, patch, region, uv);
-        region = surface::childRegion(surface, patch, region, child);
+        const surface::Split split = surface::splitAt(surface, patch, level);
+        const unsigned child = surface::childAt(surface, patch, region, split, uv);
+        region = surface::childRegion(surface, patch, region, split, child);
         narrow([level](const CellPlace& place) { return surface::pathStep(place.path, level); }, child);
     }
     for (unsigned level = 0; last - first > 1; ++level) {

@@ -39,6 +39,7 @@ class PatchTopology {
 
     const surface::Surface& surface() const { return surface_; }
     std::uint32_t cornerCount(std::uint32_t patch) const { return patches_[patch].cornerCount; }
+    surface::Strips strips(std::uint32_t patch) const { return surface_.strips(patch); }
     /// Whether no other patch meets this one in any part of a side, between corners `side` and `side` + 1.
     bool isFree(std::uint32_t patch, std::uint32_t side) const {
         const Edge& edge = edges_[patches_[patch].sides[side].edge];

@@ -88,8 +88,9 @@ class Refiner {
 
     void quarter(std::size_t i) {
         const Region region = regions_[i];
-        tree_->quarter(i);
-        for (const Region& quarter : surface::childRegions(surface_, cells_[i].patch, region)) {
+        tree_->split(i);
+        for (const Region& quarter :
+             surface::childRegions(surface_, cells_[i].patch, region, surface::Split::quarters)) {
             regions_.push_back(quarter);
         }
         leafCount_ += 3;

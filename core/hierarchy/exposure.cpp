@@ -84,11 +84,10 @@ std::array<unsigned, 2> countOut(const Side& side, const Place& place, const std
 
 Exposure findExposure(const rays::RayScene& rays, const ReachedSides& reached,
                       const surface::Surface& surface, std::uint32_t patch, bool back,
-                      const surface::Region& region, double cellSize,
+                      const surface::Region& region, const std::array<double, 2>& cellSizes,
                       const std::function<bool(base::ObjectId)>& mayEmit, bool doesEmit) {
     const Side side{rays, reached, surface, patch, back, mayEmit};
-    const std::array<double, 2> lengths{cellSize, 2.0 * cellSize};
-    const auto isClear = [&](const Place& place) { return place.clearance >= kNarrow * lengths[1]; };
+    const auto isClear = [&](const Place& place) { return place.clearance >= kNarrow * cellSizes[1]; };
     const auto middleOf = [](unsigned cell) {
         const unsigned row = cell / 4;
         return base::Vec2d(0.125 + 0.25 * (cell % 4), 0.125 + 0.25 * row);
@@ -112,9 +111,9 @@ Exposure findExposure(const rays::RayScene& rays, const ReachedSides& reached,
                               [](const Place& a, const Place& b) { return a.clearance < b.clearance; });
         std::array<bool, 2> isGap{};
         if (widest.clearance > 0.0 && !isClear(widest) && !doesEmit) {
-            const std::array<unsigned, 2> out = countOut(side, widest, lengths);
+            const std::array<unsigned, 2> out = countOut(side, widest, cellSizes);
             for (unsigned i = 0; i < 2; ++i) {
-                isGap[i] = widest.clearance < kNarrow * lengths[i] && out[i] <= kMostOut;
+                isGap[i] = widest.clearance < kNarrow * cellSizes[i] && out[i] <= kMostOut;
             }
         }
         exposure.isCovered |= isGap[0];

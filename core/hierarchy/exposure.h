@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 
@@ -19,12 +20,13 @@ struct Exposure {
 };
 
 /// A cell is hidden if everywhere in it rays along the normal at once meet a side that light never reaches,
-/// which is the inside of a solid that stands there; or if they all end within a quarter of `cellSize` (m)
+/// which is the inside of a solid that stands there; or if they all end within a quarter of the cells' size
 /// and nearly all others within one: then the cell lies in a narrow gap. Where `mayEmit` holds for either
-/// side of a gap, it does not count as one. Cells of the parent are twice as large.
+/// side of a gap, it does not count as one. `cellSizes` (m): of the element's cells and its parent's, which
+/// are not smaller.
 Exposure findExposure(const rays::RayScene& rays, const ReachedSides& reached,
                       const surface::Surface& surface, std::uint32_t patch, bool back,
-                      const surface::Region& region, double cellSize,
+                      const surface::Region& region, const std::array<double, 2>& cellSizes,
                       const std::function<bool(base::ObjectId)>& mayEmit, bool doesEmit);
 
 }  // namespace fluxwalk::hierarchy

@@ -148,6 +148,7 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
     Shape& shape = shape_[index(id)];
     const surface::RegionBounds bounds = surface.bounds(at.patch, region);
     shape.cornerCount = static_cast<std::uint8_t>(region.cornerCount);
+    shape.split = surface::splitAt(surface, at.patch, surface::pathLevel(at.path));
     shape.isPlanar = surface.isPlanar(at.patch);
     shape.axis = Vec3(at.back ? -bounds.normals.axis : bounds.normals.axis);
     shape.halfAngle = static_cast<float>(bounds.normals.halfAngle);
@@ -185,8 +186,15 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
         const auto mayEmit = [this](base::ObjectId other) {
             return scene_->materials[scene_->objects[base::index(other)].material].isEmissive();
         };
-        const Exposure exposure = findExposure(*rays_, reached_, surface, at.patch, at.back, region,
-                                               0.25 * widthOf(shape), mayEmit, light.emission != Rgb(0.0f));
+        // Strips are about as wide as their parent, quarters half as wide.
+        const bool isStrip =
+            at.path != surface::kRootPath && shape_[index(parent(id))].split != surface::Split::quarters;
+        const double width = widthOf(shape);
+        const double widthOfParent =
+            isStrip ? std::max(width, widthOf(shape_[index(parent(id))])) : 2.0 * width;
+        const Exposure exposure =
+            findExposure(*rays_, reached_, surface, at.patch, at.back, region,
+                         {0.25 * width, 0.25 * widthOfParent}, mayEmit, light.emission != Rgb(0.0f));
         shape.exposedCells = exposure.cells;
         shape.exposedPlaces = exposure.places;
         shape.placesOfParent = exposure.placesOfParent;
@@ -264,8 +272,9 @@ bool Hierarchy::canSplit(NodeId id, double minArea) const {
         return true;
     }
     return kind_[i] == NodeKind::element &&
-           (firstChild_[i] != NodeId::none || (static_cast<double>(shape_[i].area) > minArea &&
-                                               surface::pathLevel(path_[i]) < surface::kMaxLevel));
+           (firstChild_[i] != NodeId::none ||
+            (static_cast<double>(shape_[i].area) > minArea &&
+             surface::pathLevel(path_[i]) < surface::deepestLevel(surfaceOf(id), patchSide_[i] / 2)));
 }
 
 void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& executor) {
@@ -280,7 +289,8 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
             FLUXWALK_CHECK(kind_[p] == NodeKind::element && firstChild_[p] == NodeId::none);
             const surface::Surface& surface = surfaceOf(parent);
             const std::uint32_t patch = patchSide_[p] / 2;
-            const surface::Region whole = region(parent);
+            const std::array<surface::Region, 4> parts =
+                surface::childRegions(surface, patch, region(parent), shape_[p].split);
             firstChild_[p] = NodeId{static_cast<std::uint32_t>(first + 4 * k)};
             float sum = 0.0f;
             for (unsigned c = 0; c < 4; ++c) {
@@ -292,7 +302,7 @@ void Hierarchy::split(std::span<const NodeId> leaves, const base::Executor& exec
                 path_[i] = surface::childPath(path_[p], c);
                 light_[i].irradiance = light_[p].irradiance;
                 light_[i].residual = 0.25f * light_[p].residual;
-                const surface::Region part = surface::childRegion(surface, patch, whole, c);
+                const surface::Region& part = parts[c];
                 if (mayHide_[p] != 0) {
                     const bool touches =
                         touchesOther(shaft_->tree, shaft_->items, surface.bounds(patch, part).box, margin,

@@ -51,7 +51,8 @@ struct Shape {
     std::uint8_t placesOfParent = kPlaces;
     /// Part of the area that receives and sends: from the places (leaves) or the children (area means).
     float exposed = 1.0f;
-    std::uint8_t cornerCount = 0;  ///< elements: 3 or 4
+    std::uint8_t cornerCount = 0;                     ///< elements: 3 or 4
+    surface::Split split = surface::Split::quarters;  ///< how an element is cut into its children
     bool isPlanar = true;
     bool isCovered = false;  ///< some cells lie in such a gap: dark, but not inside a solid
     /// Elements: corners on the surface, counter-clockwise seen from the side that takes part.
@@ -159,12 +160,12 @@ class Hierarchy {
     /// Patch node of a patch and side, or NodeId::none where light does not reach it.
     NodeId patchNode(std::uint32_t object, std::uint32_t patch, bool back) const;
 
-    /// Whether a leaf may be quartered: an element larger than `minArea` (m2) above the depth limit.
+    /// Whether a leaf may be split: an element larger than `minArea` (m2) above the depth limit.
     bool canSplit(NodeId id, double minArea) const;
-    /// Quarters leaves. Children take over their parent's irradiance. Ids must be distinct leaves; the order
-    /// fixes the new ids.
+    /// Cuts leaves in four (Shape::split). Children take over their parent's irradiance. Ids must be distinct
+    /// leaves; the order fixes the new ids.
     void split(std::span<const NodeId> leaves, const base::Executor& executor);
-    /// Takes back the quartering of elements where neither the children nor anything below them is needed
+    /// Takes back the splitting of elements where neither the children nor anything below them is needed
     /// (`isNeeded` by node). Patches, clusters and sources stay where they are. Returns the new place of
     /// each node, NodeId::none where it is gone.
     std::vector<NodeId> prune(const std::vector<std::uint8_t>& isNeeded);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/base/vec.h"
+#include "core/surface/region.h"
 
 /// Coordinates within an element in which its irradiance and radiosity are linear, 0 in the middle. Quads: (2
 /// s - 1, 2 t - 1) of the region's unit square. Triangles: (u - 1/3, v - 1/3) with u, v the barycentric
@@ -11,9 +12,6 @@
 namespace fluxwalk::hierarchy {
 
 struct LocalFrame {
-    /// Middles of the four quarters, and the factor from a quarter's coordinates to the whole's.
-    std::array<std::array<float, 2>, 4> quarters;
-    std::array<float, 4> quarterScale;
     /// Means over the element of x x, x y (= that of y x) and y y, where x, y are the coordinates.
     float xx;
     float xy;
@@ -25,21 +23,39 @@ struct LocalFrame {
     }
 };
 
-inline constexpr LocalFrame kQuadFrame{{{{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}},
-                                       {0.5f, 0.5f, 0.5f, 0.5f},
-                                       1.0f / 3.0f,
-                                       0.0f,
-                                       1.0f / 3.0f};
-/// The middle quarter of a triangle is turned round.
-inline constexpr LocalFrame kTriangleFrame{
-    {{{-1.0f / 6.0f, -1.0f / 6.0f}, {1.0f / 3.0f, -1.0f / 6.0f}, {-1.0f / 6.0f, 1.0f / 3.0f}, {0.0f, 0.0f}}},
-    {0.5f, 0.5f, 0.5f, -0.5f},
-    1.0f / 18.0f,
-    -1.0f / 36.0f,
-    1.0f / 18.0f};
+inline constexpr LocalFrame kQuadFrame{1.0f / 3.0f, 0.0f, 1.0f / 3.0f};
+inline constexpr LocalFrame kTriangleFrame{1.0f / 18.0f, -1.0f / 36.0f, 1.0f / 18.0f};
 
 constexpr const LocalFrame& localFrame(std::uint32_t cornerCount) {
     return cornerCount == 3 ? kTriangleFrame : kQuadFrame;
+}
+
+/// Where the children of an element lie in its coordinates.
+struct ChildFrame {
+    std::array<std::array<float, 2>, 4> middles;
+    /// Factors from a child's coordinates to the whole's.
+    std::array<std::array<float, 2>, 4> scales;
+
+    base::Vec2 middle(unsigned child) const { return {middles[child][0], middles[child][1]}; }
+    base::Vec2 scale(unsigned child) const { return {scales[child][0], scales[child][1]}; }
+};
+
+inline constexpr ChildFrame kQuadQuarters{{{{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}},
+                                          {{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}}}};
+/// The middle quarter of a triangle is turned round.
+inline constexpr ChildFrame kTriangleQuarters{
+    {{{-1.0f / 6.0f, -1.0f / 6.0f}, {1.0f / 3.0f, -1.0f / 6.0f}, {-1.0f / 6.0f, 1.0f / 3.0f}, {0.0f, 0.0f}}},
+    {{{0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, 0.5f}, {-0.5f, -0.5f}}}};
+inline constexpr ChildFrame kStripsAlongU{{{{-0.75f, 0.0f}, {-0.25f, 0.0f}, {0.25f, 0.0f}, {0.75f, 0.0f}}},
+                                          {{{0.25f, 1.0f}, {0.25f, 1.0f}, {0.25f, 1.0f}, {0.25f, 1.0f}}}};
+inline constexpr ChildFrame kStripsAlongV{{{{0.0f, -0.75f}, {0.0f, -0.25f}, {0.0f, 0.25f}, {0.0f, 0.75f}}},
+                                          {{{1.0f, 0.25f}, {1.0f, 0.25f}, {1.0f, 0.25f}, {1.0f, 0.25f}}}};
+
+constexpr const ChildFrame& childFrame(std::uint32_t cornerCount, surface::Split split) {
+    return split == surface::Split::stripsAlongU   ? kStripsAlongU
+           : split == surface::Split::stripsAlongV ? kStripsAlongV
+           : cornerCount == 3                      ? kTriangleQuarters
+                                                   : kQuadQuarters;
 }
 
 /// Gradient of the linear function 1 + g . local whose mean times the coordinates is `moment`.

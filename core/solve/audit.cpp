@@ -163,21 +163,22 @@ std::vector<float> computeRowSums(const Problem& problem, const std::vector<floa
             continue;
         }
         // Children take over the linear function about their own mean, so that the means are kept.
-        const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(id).cornerCount);
+        const hierarchy::ChildFrame& frame =
+            hierarchy::childFrame(h.shape(id).cornerCount, h.shape(id).split);
         Vec2 middle(0.0f);
         float exposed = 0.0f;
         for (unsigned c = 0; c < 4; ++c) {
             const float part = h.shape(h.child(id, c)).areaInParent();
-            middle += part * Vec2(frame.quarters[c][0], frame.quarters[c][1]);
+            middle += part * frame.middle(c);
             exposed += part;
         }
         middle = exposed > 0.0f ? middle / exposed : Vec2(0.0f);
         for (unsigned c = 0; c < 4; ++c) {
             const std::uint32_t child = base::index(h.child(id, c));
-            const Vec2 offset = Vec2(frame.quarters[c][0], frame.quarters[c][1]) - middle;
+            const Vec2 offset = frame.middle(c) - middle;
             const float part = h.shape(h.child(id, c)).partOfParent();
             sums[child] += part * (sums[i] + glm::dot(offset, slopes[i]));
-            slopes[child] += part * frame.quarterScale[c] * slopes[i];
+            slopes[child] += part * frame.scale(c) * slopes[i];
         }
         sums[i] = 0.0f;
     }

@@ -315,8 +315,9 @@ std::optional<NodeId> findLeaf(const Problem& problem, std::uint32_t object, std
     const surface::Surface& surface = *problem.scene->objects[object].surface;
     surface::Region region = surface::wholePatch(surface.domain(patch));
     while (!h.isLeaf(id)) {
-        const unsigned child = surface::childAt(surface, patch, region, uv);
-        region = surface::childRegion(surface, patch, region, child);
+        const surface::Split split = h.shape(id).split;
+        const unsigned child = surface::childAt(surface, patch, region, split, uv);
+        region = surface::childRegion(surface, patch, region, split, child);
         id = h.child(id, child);
     }
     return id;

@@ -132,27 +132,27 @@ void Sweeper::gather(const Block& block) {
     }
 }
 
-// What child `child` takes over: the parent's linear function on its quarter, as far as that is exposed to
+// What child `child` takes over: the parent's linear function on its part, as far as that is exposed to
 // what the parent meets. Offsets are taken from the
 // children's mean by exposed area, so that the linear part moves no power.
 Sweeper::LinearIrradiance Sweeper::inheritedBy(NodeId parent, unsigned child,
                                                const LinearIrradiance& from) const {
     const hierarchy::Hierarchy& h = problem_.hierarchy;
     using base::Vec2;
-    const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(parent).cornerCount);
-    const auto& offsets = frame.quarters;
+    const hierarchy::Shape& whole = h.shape(parent);
+    const hierarchy::ChildFrame& frame = hierarchy::childFrame(whole.cornerCount, whole.split);
     Vec2 mean(0.0f);
     float area = 0.0f;
     for (unsigned c = 0; c < 4; ++c) {
         const float part = h.shape(h.child(parent, c)).areaInParent();
-        mean += part * Vec2(offsets[c][0], offsets[c][1]);
+        mean += part * frame.middle(c);
         area += part;
     }
-    const Vec2 offset = Vec2(offsets[child][0], offsets[child][1]) - (area > 0.0f ? mean / area : Vec2(0.0f));
+    const Vec2 offset = frame.middle(child) - (area > 0.0f ? mean / area : Vec2(0.0f));
     const float part = h.shape(h.child(parent, child)).partOfParent();
-    const float scale = part * frame.quarterScale[child];
+    const Vec2 scale = part * frame.scale(child);
     const Rgb value = part * (from.mean + offset.x * from.s + offset.y * from.t);
-    return {value, scale * from.s, scale * from.t};
+    return {value, scale.x * from.s, scale.y * from.t};
 }
 
 // Push moves irradiance down, pull takes means, by default by true exposed area: adjoint to each other in the
@@ -214,12 +214,14 @@ std::array<double, 4> Sweeper::pullWeights(NodeId id) const {
     return problem_.options.pullRule == PullRule::projected && sum > 0.0 ? projected : areas;
 }
 
-// Means by exposed area or as the options say; slopes by projection of the quarters' linear functions onto
+// Means by exposed area or as the options say; slopes by projection of the children's linear functions onto
 // one over the whole.
 void Sweeper::pull(NodeId id) {
     hierarchy::Hierarchy& h = problem_.hierarchy;
     hierarchy::Light& light = h.light(id);
-    const hierarchy::LocalFrame& frame = hierarchy::localFrame(h.shape(id).cornerCount);
+    const hierarchy::Shape& whole = h.shape(id);
+    const hierarchy::LocalFrame& frame = hierarchy::localFrame(whole.cornerCount);
+    const hierarchy::ChildFrame& children = hierarchy::childFrame(whole.cornerCount, whole.split);
     Vec3d radiosity(0.0);
     Vec3d irradiance(0.0);
     double area = 0.0;
@@ -246,13 +248,13 @@ void Sweeper::pull(NodeId id) {
     Rgb innerT(0.0f);
     for (unsigned c = 0; c < 4; ++c) {
         const hierarchy::Light& part = h.light(h.child(id, c));
-        // Hidden quarters show nothing: they count as the mean.
+        // Hidden children show nothing: they count as the mean.
         const Rgb rise =
             h.shape(h.child(id, c)).areaInParent() > 0.0f ? part.radiosity - light.radiosity : Rgb(0.0f);
-        momentX += 0.25f * frame.quarters[c][0] * rise;
-        momentY += 0.25f * frame.quarters[c][1] * rise;
-        innerS += 0.25f * frame.quarterScale[c] * part.slopeS;
-        innerT += 0.25f * frame.quarterScale[c] * part.slopeT;
+        momentX += 0.25f * children.middle(c).x * rise;
+        momentY += 0.25f * children.middle(c).y * rise;
+        innerS += 0.25f * children.scale(c).x * part.slopeS;
+        innerT += 0.25f * children.scale(c).y * part.slopeT;
     }
     const float determinant = frame.xx * frame.yy - frame.xy * frame.xy;
     light.slopeS = innerS + (frame.yy * momentX - frame.xy * momentY) / determinant;
@@ -264,7 +266,7 @@ void Sweeper::pull(NodeId id) {
             continue;
         }
         const Rgb linear =
-            light.radiosity + frame.quarters[c][0] * light.slopeS + frame.quarters[c][1] * light.slopeT;
+            light.radiosity + children.middle(c).x * light.slopeS + children.middle(c).y * light.slopeT;
         const float off = std::abs(base::channelMean(h.light(child).radiosity - linear));
         light.residual = std::max(light.residual, off + (h.isLeaf(child) ? 0.0f : h.light(child).residual));
     }

@@ -11,7 +11,7 @@ namespace {
 double refineArea(const Surface& surface, std::uint32_t patch, const Region& region, double once, int depth) {
     constexpr double kTolerance = 1e-12;
     constexpr int kDeepest = 8;
-    const std::array<Region, 4> parts = childRegions(surface, patch, region);
+    const std::array<Region, 4> parts = childRegions(surface, patch, region, Split::quarters);
     std::array<double, 4> areas{};
     double sum = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "core/base/random.h"
+#include "core/surface/strips.h"
 
 namespace fluxwalk::surface {
 
@@ -236,6 +237,15 @@ std::array<Vec3d, 4> PolygonMesh::corners(std::uint32_t patch) const {
 
 PatchDomain PolygonMesh::domain(std::uint32_t patch) const {
     return cornerCount(patch) == 3 ? PatchDomain::triangle : PatchDomain::quad;
+}
+
+Strips PolygonMesh::strips(std::uint32_t patch) const {
+    if (cornerCount(patch) == 3) {
+        return {};
+    }
+    const auto c = corners(patch);
+    return chooseStrips(glm::distance(c[0], c[1]) + glm::distance(c[3], c[2]),
+                        glm::distance(c[0], c[3]) + glm::distance(c[1], c[2]));
 }
 
 // Written so that on an edge exactly its two ends enter, with weights that neighbours share bitwise.

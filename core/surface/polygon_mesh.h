@@ -35,6 +35,7 @@ class PolygonMesh final : public Surface {
     std::uint32_t patchCount() const override { return static_cast<std::uint32_t>(patches_.size()); }
     PatchDomain domain(std::uint32_t patch) const override;
     SurfacePoint evaluate(std::uint32_t patch, const Vec2d& uv) const override;
+    Strips strips(std::uint32_t patch) const override;
     Vec2d locate(std::uint32_t patch, const Vec3d& position) const override;
     Vec2d texcoord(std::uint32_t patch, const Vec2d& uv, unsigned set) const override;
     bool isPlanar(std::uint32_t patch) const override;

@@ -127,7 +127,7 @@ RegionBounds ProjectedSurface::boundByParts(std::uint32_t patch, const Region& r
         return boundByHull(patch, region);
     }
     std::optional<RegionBounds> all;
-    for (const Region& part : childRegions(*this, patch, region)) {
+    for (const Region& part : childRegions(*this, patch, region, Split::quarters)) {
         const RegionBounds bounds = boundByParts(patch, part, levels - 1);
         if (!all) {
             all = bounds;

@@ -301,7 +301,7 @@ double ProjectedSurface::area(std::uint32_t patch, const Region& region) const {
         return Surface::area(patch, region);
     }
     double sum = 0.0;
-    for (const Region& part : childRegions(*this, patch, region)) {
+    for (const Region& part : childRegions(*this, patch, region, Split::quarters)) {
         sum += area(patch, part);
     }
     return sum;

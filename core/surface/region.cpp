@@ -22,16 +22,7 @@ double insideness(const Region& r, const Vec2d& p) {
     return least;
 }
 
-}  // namespace
-
-Region wholePatch(PatchDomain domain) {
-    if (domain == PatchDomain::quad) {
-        return {{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1, 1}, Vec2d{0, 1}}, 4};
-    }
-    return {{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{0, 1}}, 3};
-}
-
-std::array<Region, 4> childRegions(const Surface& surface, std::uint32_t patch, const Region& region) {
+std::array<Region, 4> quarterRegions(const Surface& surface, std::uint32_t patch, const Region& region) {
     const auto& c = region.corners;
     const auto split = [&](std::uint32_t i, std::uint32_t j) {
         return surface.splitPoint(patch, c[i], c[j]);
@@ -52,15 +43,51 @@ std::array<Region, 4> childRegions(const Surface& surface, std::uint32_t patch, 
             Region{{middle, e1, c[2], e2}, 4}, Region{{e3, middle, e2, c[3]}, 4}};
 }
 
-Region childRegion(const Surface& surface, std::uint32_t patch, const Region& region, unsigned child) {
-    return childRegions(surface, patch, region)[child];
+std::array<Region, 4> stripRegions(const Surface& surface, std::uint32_t patch, const Region& region,
+                                   bool alongV) {
+    // Edges are cut in the middle, and their halves there: the points that quarters of quarters have.
+    const auto cut = [&](const Vec2d& from, const Vec2d& to) {
+        const Vec2d middle = surface.splitPoint(patch, from, to);
+        return std::array{from, surface.splitPoint(patch, from, middle), middle,
+                          surface.splitPoint(patch, middle, to), to};
+    };
+    const auto& c = region.corners;
+    const auto first = alongV ? cut(c[0], c[3]) : cut(c[0], c[1]);
+    const auto second = alongV ? cut(c[1], c[2]) : cut(c[3], c[2]);
+    std::array<Region, 4> strips;
+    for (std::size_t k = 0; k < 4; ++k) {
+        strips[k] = alongV ? Region{{first[k], second[k], second[k + 1], first[k + 1]}, 4}
+                           : Region{{first[k], first[k + 1], second[k + 1], second[k]}, 4};
+    }
+    return strips;
+}
+
+}  // namespace
+
+Region wholePatch(PatchDomain domain) {
+    if (domain == PatchDomain::quad) {
+        return {{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1, 1}, Vec2d{0, 1}}, 4};
+    }
+    return {{Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{0, 1}, Vec2d{0, 1}}, 3};
+}
+
+std::array<Region, 4> childRegions(const Surface& surface, std::uint32_t patch, const Region& region,
+                                   Split split) {
+    return split == Split::quarters ? quarterRegions(surface, patch, region)
+                                    : stripRegions(surface, patch, region, split == Split::stripsAlongV);
+}
+
+Region childRegion(const Surface& surface, std::uint32_t patch, const Region& region, Split split,
+                   unsigned child) {
+    return childRegions(surface, patch, region, split)[child];
 }
 
 Region regionOf(const Surface& surface, std::uint32_t patch, Path path) {
     Region region = wholePatch(surface.domain(patch));
+    const Strips strips = surface.strips(patch);
     const unsigned levels = pathLevel(path);
     for (unsigned level = 0; level < levels; ++level) {
-        region = childRegion(surface, patch, region, pathStep(path, level));
+        region = childRegion(surface, patch, region, splitAt(strips, level), pathStep(path, level));
     }
     return region;
 }
@@ -81,10 +108,11 @@ RegionPoint mapToRegion(const Region& region, const Vec2d& st) {
     return {uv, std::abs(cross(ds, dt))};
 }
 
-unsigned childAt(const Surface& surface, std::uint32_t patch, const Region& region, const Vec2d& uv) {
+unsigned childAt(const Surface& surface, std::uint32_t patch, const Region& region, Split split,
+                 const Vec2d& uv) {
     unsigned best = 0;
     double bestInside = -std::numeric_limits<double>::infinity();
-    const std::array<Region, 4> children = childRegions(surface, patch, region);
+    const std::array<Region, 4> children = childRegions(surface, patch, region, split);
     for (unsigned child = 0; child < 4; ++child) {
         const double inside = insideness(children[child], uv);
         if (inside > bestInside) {

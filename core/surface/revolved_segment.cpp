@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/surface/integrate_area.h"
+#include "core/surface/strips.h"
 
 namespace fluxwalk::surface {
 
@@ -50,6 +51,14 @@ RevolvedSegment::RevolvedSegment(const base::Mat4d& worldFromUnit, const End& fi
     FLUXWALK_CHECK(first.radius >= 0.0 && last.radius >= 0.0);
     FLUXWALK_CHECK(first.radius + last.radius > 0.0);
     FLUXWALK_CHECK(first.radius != last.radius || first.height != last.height);
+    // The first patch stands for all, so that strips meet around the axis.
+    strips_ = measureStrips([this](const Vec2d& uv) { return positionAt(0, uv); });
+}
+
+Vec3d RevolvedSegment::positionAt(std::uint32_t patch, const Vec2d& uv) const {
+    const Vec2d turn = turnAt(patch, partOf(uv.x));
+    const double radius = radiusAt(uv.y);
+    return map_.toWorld({radius * turn.x, heightAt(uv.y), -radius * turn.y});
 }
 
 // Outward normal on the line at a turn, in the world, as long as the area measure of the unit form at radius
@@ -62,11 +71,10 @@ Vec3d RevolvedSegment::normalAlong(const Vec2d& turn) const {
 
 SurfacePoint RevolvedSegment::evaluate(std::uint32_t patch, const Vec2d& uv) const {
     const Vec2d turn = turnAt(patch, partOf(uv.x));
-    const double radius = radiusAt(uv.y);
     const Vec3d outward = normalAlong(turn);
     const double stretch = glm::length(outward);
-    return {map_.toWorld({radius * turn.x, heightAt(uv.y), -radius * turn.y}),
-            (inside_ ? -outward : outward) / stretch, 0.5 * kPi * radius * map_.volume * stretch};
+    return {positionAt(patch, uv), (inside_ ? -outward : outward) / stretch,
+            0.5 * kPi * radiusAt(uv.y) * map_.volume * stretch};
 }
 
 Vec2d RevolvedSegment::locateUnit(std::uint32_t patch, const Vec3d& unit) const {

@@ -14,6 +14,7 @@ class RevolvedSegment : public Surface {
     PatchDomain domain(std::uint32_t /*patch*/) const override { return PatchDomain::quad; }
     /// At a point on the axis: the limit of the normal along u, and no area.
     SurfacePoint evaluate(std::uint32_t patch, const Vec2d& uv) const override;
+    Strips strips(std::uint32_t /*patch*/) const override { return strips_; }
     Vec2d locate(std::uint32_t patch, const Vec3d& position) const override;
     /// u once around, as longitudes on Blender's primitives, seam at -X; v down the segment.
     Vec2d texcoord(std::uint32_t patch, const Vec2d& uv, unsigned set) const override;
@@ -51,6 +52,7 @@ class RevolvedSegment : public Surface {
   private:
     double radiusAt(double v) const { return (1.0 - v) * first_.radius + v * last_.radius; }
     double heightAt(double v) const { return (1.0 - v) * first_.height + v * last_.height; }
+    Vec3d positionAt(std::uint32_t patch, const Vec2d& uv) const;
     Vec3d normalAlong(const Vec2d& turn) const;
     double measureAround(std::uint32_t patch, double from, double to) const;
 
@@ -60,6 +62,7 @@ class RevolvedSegment : public Surface {
     bool inside_;
     /// Whether u runs against the turn.
     bool clockwise_;
+    Strips strips_;
 };
 
 }  // namespace fluxwalk::surface

@@ -8,6 +8,7 @@
 #include "core/surface/piece_rays.h"
 #include "core/surface/piece_tree.h"
 #include "core/surface/region.h"
+#include "core/surface/strips.h"
 
 namespace fluxwalk::surface {
 
@@ -200,6 +201,10 @@ SubdivisionSurface::SubdivisionSurface(const ControlCage& cage) : cage_(cage) {
     for (std::uint32_t i = 0; i < patchCount(); ++i) {
         patches_[i].seesItselfInFront = !tree_->bendsAway(i, 1.0);
         patches_[i].seesItselfBehind = !tree_->bendsAway(i, -1.0);
+        if (tree_->domain() == PatchDomain::quad) {
+            patches_[i].strips =
+                measureStrips([&](const Vec2d& uv) { return tree_->evaluate(i, uv).position; });
+        }
     }
 }
 

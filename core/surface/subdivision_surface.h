@@ -23,6 +23,7 @@ class SubdivisionSurface final : public Surface {
     PatchDomain domain(std::uint32_t patch) const override;
     /// Positions on an edge come from one of the patches that share it, normals from the patch that is asked.
     SurfacePoint evaluate(std::uint32_t patch, const Vec2d& uv) const override;
+    Strips strips(std::uint32_t patch) const override { return patches_[patch].strips; }
     Vec2d locate(std::uint32_t patch, const Vec3d& position) const override;
     /// Bilinear (on triangles linear) between the corners of a patch; those of sub-faces are means over the
     /// face's.
@@ -59,6 +60,7 @@ class SubdivisionSurface final : public Surface {
         std::array<std::array<base::Vec2, 4>, 2> texcoords{};
         bool seesItselfInFront = true;
         bool seesItselfBehind = true;
+        Strips strips;
     };
     class Builder;
 

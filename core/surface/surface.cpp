@@ -4,6 +4,10 @@
 
 namespace fluxwalk::surface {
 
+Strips Surface::strips(std::uint32_t /*patch*/) const {
+    return {};
+}
+
 Vec2d Surface::splitPoint(std::uint32_t /*patch*/, const Vec2d& a, const Vec2d& b) const {
     return 0.5 * (a + b);
 }

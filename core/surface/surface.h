@@ -35,6 +35,13 @@ struct SurfacePoint {
     double jacobian = 0.0;
 };
 
+/// How a quad patch that is much longer than wide is cut first: into four strips across its length, which are
+/// nearer to squares than quarters of it would be.
+struct Strips {
+    std::uint8_t levels = 0;  ///< splits of this kind on the way from the patch to its elements
+    bool alongV = false;      ///< strips follow each other along v, else along u
+};
+
 /// What bounds a region: a box and a cone that hold all its points and normals.
 struct RegionBounds {
     Box box;
@@ -76,6 +83,10 @@ class Surface {
     /// Parameter at which an edge between two parameters is split; symmetric in its ends. Default: the
     /// middle.
     virtual Vec2d splitPoint(std::uint32_t patch, const Vec2d& a, const Vec2d& b) const;
+
+    /// Elements of surfaces whose points depend on how they were split are quartered only, which is the
+    /// default.
+    virtual Strips strips(std::uint32_t patch) const;
 
     /// Parameter of the point of `patch` nearest to `position`, which lies on or near it.
     virtual Vec2d locate(std::uint32_t patch, const Vec3d& position) const = 0;

@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/surface/integrate_area.h"
+#include "core/surface/strips.h"
 #include "core/surface/torus_roots.h"
 
 namespace fluxwalk::surface {
@@ -27,7 +28,15 @@ Torus::Torus(const base::Mat4d& worldFromLocal, double majorRadius, double minor
       tube_(minorRadius / majorRadius),
       scale_(map_.similarityScale()),
       inside_(inside),
-      clockwise_(inside != map_.isMirror) {}
+      clockwise_(inside != map_.isMirror) {
+    // All patches alike, so that strips meet: as long as a patch about the ring's centre line.
+    strips_ = measureStrips([this](const Vec2d& uv) {
+        const Vec2d ring = turnAt(0, partOf(uv.x));
+        const Vec2d tube = turnAt(0, uv.y);
+        const double radius = 1.0 + tube_ * (tube.x - 0.5);
+        return map_.toWorld({radius * ring.x, tube_ * tube.y, -radius * ring.y});
+    });
+}
 
 Arc Torus::ringArc(std::uint32_t patch, double u0, double u1) const {
     const double from = partOf(u0);

@@ -18,6 +18,7 @@ class Torus final : public Surface {
     std::uint32_t patchCount() const override { return 16; }
     PatchDomain domain(std::uint32_t /*patch*/) const override { return PatchDomain::quad; }
     SurfacePoint evaluate(std::uint32_t patch, const Vec2d& uv) const override;
+    Strips strips(std::uint32_t /*patch*/) const override { return strips_; }
     Vec2d locate(std::uint32_t patch, const Vec3d& position) const override;
     /// As on Blender's torus: u once around the ring, v once around the tube, seams at -X and innermost.
     Vec2d texcoord(std::uint32_t patch, const Vec2d& uv, unsigned set) const override;
@@ -51,6 +52,7 @@ class Torus final : public Surface {
     bool inside_;
     /// Whether u runs against the turn.
     bool clockwise_;
+    Strips strips_;
 };
 
 }  // namespace fluxwalk::surface

@@ -95,7 +95,7 @@ struct CurvedCutter {
     bool isBack = false;
 
     std::array<Part, 4> quarters(const Part& region) const {
-        return surface::childRegions(surface, patch, region);
+        return surface::childRegions(surface, patch, region, surface::Split::quarters);
     }
     ElementHull hullOf(const Part& region) const;
     void measure(SourcePart& part, const Part& region) const;

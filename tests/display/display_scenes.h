@@ -66,9 +66,11 @@ void addLeaves(const surface::Surface& surface, std::uint32_t patch, surface::Pa
                const surface::Region& region, const Irradiance& irradiance, const ShouldSplit& shouldSplit,
                std::vector<Leaf>& out, unsigned samples = 8) {
     if (shouldSplit(patch, path, region)) {
+        const surface::Split split = surface::splitAt(surface, patch, surface::pathLevel(path));
         for (unsigned k = 0; k < 4; ++k) {
             addLeaves(surface, patch, surface::childPath(path, k),
-                      surface::childRegion(surface, patch, region, k), irradiance, shouldSplit, out, samples);
+                      surface::childRegion(surface, patch, region, split, k), irradiance, shouldSplit, out,
+                      samples);
         }
         return;
     }

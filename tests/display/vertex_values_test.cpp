@@ -153,8 +153,9 @@ DisplayError measure(const surface::Surface& surface, const Irradiance& irradian
         surface::Path path = surface::kRootPath;
         surface::Region region = surface::wholePatch(surface.domain(patch));
         while (!constants.contains({patch, path})) {
-            const unsigned child = surface::childAt(surface, patch, region, uv);
-            region = surface::childRegion(surface, patch, region, child);
+            const surface::Split split = surface::splitAt(surface, patch, surface::pathLevel(path));
+            const unsigned child = surface::childAt(surface, patch, region, split, uv);
+            region = surface::childRegion(surface, patch, region, split, child);
             path = surface::childPath(path, child);
         }
         const double shown = static_cast<double>(lookup.irradiance(patch, false, uv)->r);

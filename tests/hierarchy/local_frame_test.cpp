@@ -76,42 +76,48 @@ TEST_P(LocalFrames, momentsAreMeansOverTheElement) {
                 static_cast<double>(frame.product(g, h)), 1e-5);
 }
 
-// A point of a quarter has the same parameters whether named by the quarter's coordinates or the whole's.
-TEST_P(LocalFrames, quartersLieWhereRegionsAreSplit) {
-    const std::uint32_t n = GetParam();
-    const LocalFrame& frame = localFrame(n);
+struct Children {
+    std::uint32_t cornerCount;
+    surface::Split split;
+};
+
+class ChildFrames : public testing::TestWithParam<Children> {};
+
+// A point of a child has the same parameters whether named by the child's coordinates or the whole's.
+TEST_P(ChildFrames, childrenLieWhereRegionsAreSplit) {
+    const auto [n, split] = GetParam();
+    const hierarchy::ChildFrame& frame = hierarchy::childFrame(n, split);
     const surface::PolygonMesh mesh = patchOf(n);
     const surface::Region whole = surface::wholePatch(mesh.domain(0));
     ASSERT_EQ(whole.cornerCount, n);
     base::RandomStream random(4);
     for (unsigned c = 0; c < 4; ++c) {
-        const surface::Region part = surface::childRegion(mesh, 0, whole, c);
+        const surface::Region part = surface::childRegion(mesh, 0, whole, split, c);
         for (int i = 0; i < 20; ++i) {
             const Vec2d local = localOf(n, random.next2());
-            const Vec2d middle(static_cast<double>(frame.quarters[c][0]),
-                               static_cast<double>(frame.quarters[c][1]));
-            const Vec2d inWhole = middle + static_cast<double>(frame.quarterScale[c]) * local;
+            const Vec2d inWhole = Vec2d(frame.middle(c)) + Vec2d(frame.scale(c)) * local;
             EXPECT_LT(glm::distance(parameterAt(part, local), parameterAt(whole, inWhole)), 1e-7) << c;
         }
     }
 }
 
-// Push: each quarter takes the parent's value at its middle and the scaled slope. Pull: mean, and slope by
-// least squares over the quarters. A linear function survives both.
-TEST_P(LocalFrames, linearFunctionsSurvivePushAndPull) {
-    const std::uint32_t n = GetParam();
+// Push: each child takes the parent's value at its middle and the scaled slope. Pull: mean, and slope by
+// least squares over the children. A linear function survives both.
+TEST_P(ChildFrames, linearFunctionsSurvivePushAndPull) {
+    const auto [n, split] = GetParam();
     const LocalFrame& frame = localFrame(n);
+    const hierarchy::ChildFrame& children = hierarchy::childFrame(n, split);
     const double mean = 3.0;
     const Vec2 slope(0.8f, -0.5f);
     double pulledMean = 0.0;
     Vec2d moment(0.0);
-    for (std::size_t c = 0; c < 4; ++c) {
-        const Vec2 middle(frame.quarters[c][0], frame.quarters[c][1]);
+    for (unsigned c = 0; c < 4; ++c) {
+        const Vec2 middle = children.middle(c);
         const float value = static_cast<float>(mean) + glm::dot(slope, middle);
-        const Vec2 childSlope = frame.quarterScale[c] * slope;
+        const Vec2 childSlope = children.scale(c) * slope;
         pulledMean += 0.25 * static_cast<double>(value);
-        // Mean over the quarter of f(x) x, with x = middle + scale y in the whole's coordinates.
-        const float scale = frame.quarterScale[c];
+        // Mean over the child of f(x) x, with x = middle + scale y in the whole's coordinates.
+        const Vec2 scale = children.scale(c);
         const Vec2 spread(frame.xx * childSlope.x + frame.xy * childSlope.y,
                           frame.xy * childSlope.x + frame.yy * childSlope.y);
         moment += 0.25 * Vec2d(value * middle + scale * spread);
@@ -147,6 +153,11 @@ TEST_P(LocalFrames, mirroredGradientsDescribeTheSameFunction) {
 }
 
 INSTANTIATE_TEST_SUITE_P(TrianglesAndQuads, LocalFrames, testing::Values(3u, 4u));
+INSTANTIATE_TEST_SUITE_P(AllSplits, ChildFrames,
+                         testing::Values(Children{3, surface::Split::quarters},
+                                         Children{4, surface::Split::quarters},
+                                         Children{4, surface::Split::stripsAlongU},
+                                         Children{4, surface::Split::stripsAlongV}));
 
 }  // namespace
 }  // namespace fluxwalk

@@ -33,7 +33,7 @@ scene::Scene sceneOf(std::shared_ptr<const surface::Surface> surface, bool doubl
 scene::Scene glowingBox() {
     scene::Scene scene;
     scene::addMaterial(scene, "glow", base::Rgb(0.5f), base::Rgb(2.0f));
-    scene::addPolygons(scene, "box", 0, scene::boxFaces({0.1, 0.2, 0.3}, {1.3, 2.7, 1.1}));
+    scene::addPolygons(scene, "box", 0, scene::boxFaces({0.1, 0.2, 0.3}, {1.3, 2.3, 1.1}));
     return scene;
 }
 
@@ -147,7 +147,8 @@ TEST(Split, namesRegionsAndParents) {
             EXPECT_EQ(below.back, name.back);
             EXPECT_EQ(below.path, surface::childPath(name.path, c));
             EXPECT_EQ(built.tree.parent(child), id);
-            const surface::Region part = surface::childRegion(built.tree.surfaceOf(id), name.patch, whole, c);
+            const surface::Region part = surface::childRegion(built.tree.surfaceOf(id), name.patch, whole,
+                                                              built.tree.shape(id).split, c);
             EXPECT_EQ(built.tree.region(child).corners, part.corners);
         }
     });

@@ -126,10 +126,20 @@ TEST(FullMatrix, cieCubeMeans) {
     }
 }
 
+// Two plates of width and distance 1, each in 16 columns of 16 long elements.
+Scene stripsInColumns(double length) {
+    Scene scene;
+    const std::uint32_t glowing = scene::addMaterial(scene, "glowing", Rgb(.8f), Rgb(1.0f));
+    for (const auto& plate : scene::boxFaces({0, 0, 0}, {1, 1, length}, scene::kTop | scene::kBottom, true)) {
+        scene::addPolygons(scene, "plate", glowing, scene::gridOf(plate, 16, 16));
+    }
+    return scene;
+}
+
 // Check 16, ALGORITHMS 3.8. The edge and the centre are gathered at points.
 TEST(FullMatrix, strips) {
-    const Scene scene = scene::buildStrips(200.0, 1, .8f);
-    const FullMatrix matrix = makeMatrix(scene, 4, 0);
+    const Scene scene = stripsInColumns(200.0);
+    const FullMatrix matrix = makeMatrix(scene, 0, 0);
     const MatrixSolution solution = matrix.solve(SweepKind::gaussSeidel, 1e-10);
     const auto radiosityAt = [&](double x) {
         double irradiance = 0.0;

@@ -154,7 +154,8 @@ TEST_F(Textures, RegionMeansAreExactAndDoNotLeak) {
     const surface::Surface& surface = *scene_.objects[0].surface;
     double sum = 0.0;
     for (unsigned child = 0; child < 4; ++child) {
-        const surface::Region region = surface::childRegion(surface, 0, whole(), child);
+        const surface::Region region =
+            surface::childRegion(surface, 0, whole(), surface::Split::quarters, child);
         const surface::RegionPoint middle = surface::mapToRegion(region, {0.5, 0.5});
         const Vec2d uv = surface.texcoord(0, middle.uv, 0);
         const auto q = static_cast<std::size_t>((uv.y > 0.5 ? 2 : 0) + (uv.x > 0.5 ? 1 : 0));

@@ -39,7 +39,7 @@ Areas areasAt(const surface::Surface& sphere, std::uint32_t patch, const Region&
         return {.5 * glm::length(crossOf(sphere, patch, region)), sphere.area(patch, region)};
     }
     Areas sum;
-    for (const Region& part : surface::childRegions(sphere, patch, region)) {
+    for (const Region& part : surface::childRegions(sphere, patch, region, surface::Split::quarters)) {
         const Areas areas = areasAt(sphere, patch, part, level - 1);
         sum.polygons += areas.polygons;
         sum.surface += areas.surface;
@@ -94,7 +94,7 @@ TEST(CurvedAreas, planarParentsWouldCreatePower) {
     double plain = 0.0;
     double projected = 0.0;
     double surface = 0.0;
-    for (const Region& part : surface::childRegions(sphere, 0, whole)) {
+    for (const Region& part : surface::childRegions(sphere, 0, whole, surface::Split::quarters)) {
         const Vec3d child = crossOf(sphere, 0, part);
         plain += glm::length(child) / glm::length(parent);
         projected += glm::dot(child, parent) / glm::dot(parent, parent);

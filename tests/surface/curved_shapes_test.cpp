@@ -94,7 +94,8 @@ TEST_P(CurvedShapes, AreaIsTheIntegralAndTheSumOfTheParts) {
                 std::vector<Region> next;
                 double sum = 0.0;
                 for (const Region& region : level) {
-                    for (const Region& child : surface::childRegions(*placed.surface, patch, region)) {
+                    for (const Region& child :
+                         surface::childRegions(*placed.surface, patch, region, surface::Split::quarters)) {
                         next.push_back(child);
                         sum += placed.surface->area(patch, child);
                     }

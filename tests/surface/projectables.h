@@ -192,7 +192,8 @@ void forElements(const surface::Surface& surface, unsigned level, const Visit& v
             visit(patch, region);
             return;
         }
-        for (const surface::Region& part : surface::childRegions(surface, patch, region)) {
+        for (const surface::Region& part :
+             surface::childRegions(surface, patch, region, surface::Split::quarters)) {
             self(self, patch, part, left - 1);
         }
     };

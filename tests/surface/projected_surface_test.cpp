@@ -147,7 +147,8 @@ TEST(ProjectedSurface, partsAddUpToTheirParent) {
                     return;
                 }
                 double sum = 0.0;
-                for (const Region& part : surface::childRegions(*surface, patch, r)) {
+                for (const Region& part :
+                     surface::childRegions(*surface, patch, r, surface::Split::quarters)) {
                     sum += surface->area(patch, part);
                 }
                 double& worst = level < 2 ? coarse : fine;

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
+#include "core/surface/cylinder.h"
 #include "core/surface/polygon_mesh.h"
 #include "core/surface/sphere.h"
+#include "core/surface/torus.h"
 
 namespace fluxwalk {
 
@@ -21,6 +23,22 @@ PolygonMesh skewQuad() {
     soup.positions = {{0, 0, 0}, {3, 0, 0}, {2, 1.5f, 0}, {.5f, 1, 0}};
     soup.triangles = {{0, 1, 2}, {0, 2, 3}};
     return PolygonMesh(std::move(soup));
+}
+
+// One patch, 1 m wide along v.
+PolygonMesh rectangle(float length) {
+    surface::TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {length, 0, 0}, {length, 1, 0}, {0, 1, 0}};
+    soup.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return PolygonMesh(std::move(soup));
+}
+
+// Length of a rectangular region over its width, or the other way round, whichever is more than 1.
+double longerBySquare(const PolygonMesh& mesh, const Region& region) {
+    const auto at = [&](std::size_t i) { return mesh.evaluate(0, region.corners[i]).position; };
+    const double a = glm::distance(at(0), at(1));
+    const double b = glm::distance(at(1), at(2));
+    return std::max(a, b) / std::min(a, b);
 }
 
 double cross(const Vec2d& a, const Vec2d& b) {
@@ -69,7 +87,7 @@ TEST(Region, childrenTileTheirParent) {
             double area = 0.0;
             double parameters = 0.0;
             for (unsigned child = 0; child < 4; ++child) {
-                const Region r = surface::childRegion(*surface, 0, parent, child);
+                const Region r = surface::childRegion(*surface, 0, parent, surface::Split::quarters, child);
                 EXPECT_EQ(r.cornerCount, parent.cornerCount);
                 EXPECT_GT(parameterArea(r), 0.0) << "orientation is kept";
                 area += surface->area(0, r);
@@ -120,15 +138,76 @@ TEST(Region, childAtFindsTheQuarter) {
         for (const Path path : {Path{1}, Path{0b1'11}, Path{0b1'01'10}}) {
             const Region parent = surface::regionOf(*surface, 0, path);
             for (unsigned child = 0; child < 4; ++child) {
-                const Region r = surface::childRegion(*surface, 0, parent, child);
+                const Region r = surface::childRegion(*surface, 0, parent, surface::Split::quarters, child);
                 for (int i = 0; i < 20; ++i) {
                     const Vec2d inside = .01 + .98 * random.next2();
-                    EXPECT_EQ(surface::childAt(*surface, 0, parent, surface::mapToRegion(r, inside).uv),
+                    EXPECT_EQ(surface::childAt(*surface, 0, parent, surface::Split::quarters,
+                                               surface::mapToRegion(r, inside).uv),
                               child);
                 }
             }
         }
     }
+}
+
+// From a tenth to ten times as long as wide, and beyond: elements of some level are near to squares, and
+// those of all levels below too.
+TEST(Strips, longQuadsAreCutAcrossFirst) {
+    for (const float length : {.001f, .05f, .3f, .5f, 1.0f, 2.0f, 2.7f, 3.0f, 9.0f, 12.0f, 700.0f, 1e4f}) {
+        const PolygonMesh quad = rectangle(length);
+        const surface::Strips strips = quad.strips(0);
+        const bool isLong = length > 2.8f || length < .35f;
+        EXPECT_EQ(strips.levels > 0, isLong) << length;
+        const auto at = [&](const Vec2d& uv) { return quad.evaluate(0, uv).position; };
+        const bool isLongAlongU =
+            glm::distance(at({0, 0}), at({1, 0})) > glm::distance(at({0, 0}), at({0, 1}));
+        Path path = surface::kRootPath;
+        for (unsigned level = 0; level < strips.levels + 2u; ++level) {
+            const surface::Split split = surface::splitAt(quad, 0, level);
+            EXPECT_EQ(split, level >= strips.levels ? surface::Split::quarters
+                             : isLongAlongU         ? surface::Split::stripsAlongU
+                                                    : surface::Split::stripsAlongV);
+            path = surface::childPath(path, level % 4);
+        }
+        const double ratio = longerBySquare(quad, surface::regionOf(quad, 0, path));
+        EXPECT_LE(ratio, 2.81) << length;
+        EXPECT_LE(surface::deepestLevel(quad, 0) + strips.levels, surface::kMaxLevel);
+    }
+}
+
+TEST(Strips, tileTheirParentAtPointsOfQuarters) {
+    const PolygonMesh quad = rectangle(12.0f);
+    const Region whole = surface::wholePatch(quad.domain(0));
+    base::RandomStream random(3);
+    for (const surface::Split split : {surface::Split::stripsAlongU, surface::Split::stripsAlongV}) {
+        const std::array<Region, 4> parts = surface::childRegions(quad, 0, whole, split);
+        double area = 0.0;
+        for (unsigned k = 0; k < 4; ++k) {
+            EXPECT_GT(parameterArea(parts[k]), 0.0) << "orientation is kept";
+            area += parameterArea(parts[k]);
+            for (const Vec2d& corner : parts[k].corners) {
+                EXPECT_EQ(corner * 4.0, glm::floor(corner * 4.0));
+            }
+            for (int i = 0; i < 20; ++i) {
+                const Vec2d inside = .01 + .98 * random.next2();
+                EXPECT_EQ(surface::childAt(quad, 0, whole, split, surface::mapToRegion(parts[k], inside).uv),
+                          k);
+            }
+        }
+        EXPECT_NEAR(area, parameterArea(whole), 1e-15);
+    }
+}
+
+// A column of 0.15 m and 3 m: its quarters are 13 times as high as wide. Rings by their two radii.
+TEST(Strips, curvedPatchesToo) {
+    const surface::Cylinder column(base::Mat4d(1.0), .15, 3.0);
+    EXPECT_EQ(column.strips(0).levels, 2u);
+    EXPECT_TRUE(column.strips(3).alongV);
+    const surface::Torus ring(base::Mat4d(1.0), .2, .04);
+    EXPECT_EQ(ring.strips(0).levels, 1u);
+    EXPECT_FALSE(ring.strips(7).alongV);
+    EXPECT_EQ(surface::Torus(base::Mat4d(1.0), .7, .3).strips(0).levels, 0u);
+    EXPECT_EQ(Sphere(base::Vec3d(0.0), 1.0).strips(0).levels, 0u);
 }
 
 }  // namespace fluxwalk

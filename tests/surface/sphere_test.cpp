@@ -44,7 +44,9 @@ void forElements(const Surface& surface, std::uint32_t patch, const Region& regi
         return;
     }
     for (unsigned child = 0; child < 4; ++child) {
-        forElements(surface, patch, surface::childRegion(surface, patch, region, child), level - 1, visit);
+        forElements(surface, patch,
+                    surface::childRegion(surface, patch, region, surface::Split::quarters, child), level - 1,
+                    visit);
     }
 }
 

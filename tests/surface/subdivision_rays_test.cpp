@@ -149,7 +149,7 @@ TEST(SubdivisionRays, noRayPassesBetweenPatches) {
             surface::Region cell = surface::wholePatch(surface.domain(patch));
             for (unsigned level = static_cast<unsigned>(4.0 * random.next() * random.next() * 3.0); level > 0;
                  --level) {
-                cell = surface::childRegion(surface, patch, cell,
+                cell = surface::childRegion(surface, patch, cell, surface::Split::quarters,
                                             static_cast<unsigned>(4.0 * random.next()) & 3u);
             }
             const std::uint32_t k =

@@ -231,7 +231,7 @@ TEST(SubdivisionSurface, boundsHoldAllPointsAndNormals) {
             Region region = surface::wholePatch(domain);
             if (i % 3 != 0) {
                 for (unsigned level = static_cast<unsigned>(i) % 14; level > 0; --level) {
-                    region = surface::childRegion(surface, patch, region,
+                    region = surface::childRegion(surface, patch, region, surface::Split::quarters,
                                                   static_cast<unsigned>(4.0 * random.next()) & 3u);
                 }
             } else {
@@ -272,7 +272,7 @@ TEST(SubdivisionSurface, boundsAreTight) {
             // Four levels down, away from the corners.
             Region region = surface::wholePatch(surface.domain(patch));
             for (const unsigned child : {3u, 1u, 2u, 0u}) {
-                region = surface::childRegion(surface, patch, region, child);
+                region = surface::childRegion(surface, patch, region, surface::Split::quarters, child);
             }
             const surface::RegionBounds bounds = surface.bounds(patch, region);
             base::Box box;
@@ -300,8 +300,8 @@ TEST(SubdivisionSurface, areas) {
         const double area = surface.area(patch, whole);
         double parts = 0.0;
         double sum = 0.0;
-        for (const Region& half : surface::childRegions(surface, patch, whole)) {
-            for (const Region& part : surface::childRegions(surface, patch, half)) {
+        for (const Region& half : surface::childRegions(surface, patch, whole, surface::Split::quarters)) {
+            for (const Region& part : surface::childRegions(surface, patch, half, surface::Split::quarters)) {
                 parts += surface.area(patch, part);
                 constexpr int kN = 256;
                 for (int i = 0; i < kN; ++i) {
