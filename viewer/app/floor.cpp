@@ -1,7 +1,6 @@
 #include "viewer/app/floor.h"
 
 #include <chrono>
-#include <limits>
 
 namespace fluxwalk::app {
 
@@ -17,17 +16,17 @@ Floor::Floor(std::shared_ptr<const scene::Scene> scene)
 bool Floor::isReady() {
     if (building_.valid() && building_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
         solid_ = building_.get();
+        walls_ = {solid_->scene.get(), &solid_->rays};
     }
     return solid_ != nullptr;
 }
 
 std::optional<double> Floor::below(const base::Vec3d& point) {
-    if (!isReady()) {
-        return std::nullopt;
-    }
-    const auto hit = solid_->rays.closest(
-        {base::Vec3(point), 0.0f, base::Vec3(0.0f, -1.0f, 0.0f), std::numeric_limits<float>::max()});
-    return hit ? std::optional(point.y - static_cast<double>(hit->t)) : std::nullopt;
+    return isReady() ? ui::Body::findGround(walls_, point) : std::nullopt;
+}
+
+const ui::Walls* Floor::walls() {
+    return isReady() ? &walls_ : nullptr;
 }
 
 }  // namespace fluxwalk::app

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/rays/ray_scene.h"
+#include "viewer/ui/body.h"
 
 namespace fluxwalk::app {
 
@@ -25,10 +26,13 @@ class Floor {
     bool isReady();
     /// Height (y, metres) of what lies below a point; nothing while the rays are being built or over nothing.
     std::optional<double> below(const base::Vec3d& point);
+    /// What the visitor stands on and bumps into; null while the rays are being built.
+    const ui::Walls* walls();
 
   private:
     std::future<std::unique_ptr<Solid>> building_;
     std::unique_ptr<Solid> solid_;
+    ui::Walls walls_;
 };
 
 }  // namespace fluxwalk::app

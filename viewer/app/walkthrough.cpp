@@ -250,8 +250,7 @@ bool Walkthrough::move(double seconds) {
         walker_.speed =
             std::clamp(walker_.speed * std::pow(1.15, static_cast<double>(io.MouseWheel)), 0.01, 100.0);
     }
-    const bool changed =
-        walker_.update(input, seconds, [this](const base::Vec3d& point) { return floor_.below(point); });
+    const bool changed = walker_.update(input, seconds, floor_.walls());
     return changed || input.ahead != 0.0 || input.right != 0.0 || input.up != 0.0;
 }
 
