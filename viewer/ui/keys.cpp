@@ -21,17 +21,14 @@ constexpr std::array kMoving{KeyLine{"W A S D, arrows", "walk, fly"},
 constexpr std::array kAround{KeyLine{"Alt drag, middle drag", "orbit about the point under the cursor"},
                              KeyLine{"wheel while orbiting", "nearer, farther"},
                              KeyLine{"G", "go to the object under the cursor"}};
-constexpr std::array kPlaces{KeyLine{"B", "keep this view as a bookmark"},
-                             KeyLine{"1 to 9", "go to a bookmark"},
-                             KeyLine{"R", "begin or end the recording of a path"},
-                             KeyLine{"L", "play the last path, or stop it"}};
+constexpr std::array kPlaces{
+    KeyLine{"B", "keep this view as a bookmark"}, KeyLine{"1 to 9", "go to a bookmark"},
+    KeyLine{"R", "begin or end the recording of a path"}, KeyLine{"L", "play the last path, or stop it"}};
 constexpr std::array kSeeing{KeyLine{"C", "illuminance in false colour, or the picture"},
                              KeyLine{"I", "values of the point under the cursor; a click pins it"},
                              KeyLine{"P", "pause or continue the solver"},
                              KeyLine{"N", "one level further while paused"}};
-constexpr std::array kWindow{KeyLine{"F1", "this help"},
-                             KeyLine{"F11", "full screen"},
-                             KeyLine{"H", "panel"},
+constexpr std::array kWindow{KeyLine{"F1", "this help"}, KeyLine{"F11", "full screen"}, KeyLine{"H", "panel"},
                              KeyLine{"Esc", "release mouse and pin, close help and messages"},
                              KeyLine{"drop a file", "open that scene"}};
 constexpr std::array kGroups{KeyGroup{"Moving", kMoving}, KeyGroup{"Around things", kAround},

@@ -42,7 +42,8 @@ scene::Camera dolly(const scene::Camera& camera, const Vec3d& pivot, double fact
     const double distance = glm::length(offset);
     scene::Camera moved = camera;
     if (distance > 0.0) {
-        moved.position = pivot + offset * (std::max(factor * distance, std::min(nearest, distance)) / distance);
+        moved.position =
+            pivot + offset * (std::max(factor * distance, std::min(nearest, distance)) / distance);
     }
     return moved;
 }

@@ -6,8 +6,8 @@
 /// Cameras that move around things.
 namespace fluxwalk::ui {
 
-/// Turned about a point, to the right and upwards in radians as the hand would turn the thing; the point keeps
-/// its place in the picture. Comes out upright, and never looks straight up or down.
+/// Turned about a point, to the right and upwards in radians as the hand would turn the thing; the point
+/// keeps its place in the picture. Comes out upright, and never looks straight up or down.
 scene::Camera orbit(const scene::Camera& camera, const base::Vec3d& pivot, double turn, double tilt);
 
 /// At `factor` times the distance from a point, but never nearer than `nearest` metres.

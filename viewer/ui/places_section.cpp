@@ -42,7 +42,8 @@ PlaceActions drawPlaces(const Places& places) {
         actions.togglesPlaying = ImGui::Button(places.isPlaying ? "Stop##play" : "Play");
     }
     if (!places.recentFiles.empty()) {
-        beginRow("Recent files", "Scenes that were opened lately. A file dropped on the window is opened too.");
+        beginRow("Recent files",
+                 "Scenes that were opened lately. A file dropped on the window is opened too.");
         if (ImGui::BeginCombo("##recent", "open ...")) {
             for (std::size_t i = 0; i < places.recentFiles.size(); ++i) {
                 ImGui::PushID(static_cast<int>(i));
