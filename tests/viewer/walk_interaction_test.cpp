@@ -49,7 +49,11 @@ class Walk : public testing::WindowTest {
     void open(const std::vector<std::string>& arguments) {
         WindowTest::open(arguments);
         if (!IsSkipped() && !HasFatalFailure()) {
-            ASSERT_TRUE(waitFor([](const Picture& p) { return p.at(900, 500).g > 40; }));
+            // Before the first light it is as dark as the background.
+            ASSERT_TRUE(waitFor([](const Picture& p) {
+                const testing::Pixel middle = p.at(900, 500);
+                return middle.r + middle.g + middle.b > 150;
+            }));
         }
     }
     /// The picture once it stays as it is.

@@ -133,7 +133,7 @@ class WindowTest : public ::testing::Test {
         screen_ = std::make_unique<Screen>();
         ASSERT_TRUE(screen_->isReady());
         const std::string name = "fluxwalk-window-" + std::to_string(getpid());
-        picture_ = std::filesystem::temp_directory_path() / (name + ".png");
+        picture_ = std::filesystem::temp_directory_path() / (name + ".ppm");
         state_ = std::filesystem::temp_directory_path() / (name + "-state");
         std::filesystem::create_directories(state_);
         setenv("XDG_STATE_HOME", state_.c_str(), 1);
@@ -150,7 +150,7 @@ class WindowTest : public ::testing::Test {
 
     Picture look() const {
         Picture picture;
-        std::system(("import -window root png24:" + picture_.string() + " 2> /dev/null").c_str());
+        std::system(("import -window root ppm:" + picture_.string() + " 2> /dev/null").c_str());
         int width = 0;
         int height = 0;
         int channels = 0;
