@@ -173,7 +173,8 @@ TEST_F(Walk, F11FillsTheScreenAndF1ShowsTheKeys) {
     const Picture full = settled();
     press("F1");
     EXPECT_TRUE(waitFor([&](const Picture& p) { return difference(p, full) > 10.0; }));
-    press("F1");
+    // Pressed and released at once, sooner than a frame.
+    act("key F1");
     EXPECT_TRUE(waitFor([&](const Picture& p) { return difference(p, full) < kSame; }));
     press("F11");
     EXPECT_TRUE(waitFor(isBlack));

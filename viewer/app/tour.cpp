@@ -263,9 +263,17 @@ bool Tour::goToBookmark(std::size_t bookmark, const Frame& frame) {
         say("There is no bookmark " + std::to_string(bookmark + 1) + ": B keeps one.", frame.now);
         return false;
     }
-    playback_.stop();
-    frame.walker.jumpTo(book_.bookmarks()[bookmark]);
+    goTo(book_.bookmarks()[bookmark], frame.walker, frame.now);
     return true;
+}
+
+void Tour::goTo(const scene::Camera& camera, ui::Walker& walker, double now) {
+    if (const auto fault = scene::findFault(camera)) {
+        complain("The camera " + camera.name + " " + *fault + ".", now);
+        return;
+    }
+    playback_.stop();
+    walker.jumpTo(camera);
 }
 
 ui::Places Tour::places() const {

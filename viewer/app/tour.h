@@ -40,6 +40,8 @@ class Tour {
     bool isOrbiting() const { return pivot_.has_value(); }
 
     ui::Places places() const;
+    /// Goes to a camera, unless nothing can be seen through it.
+    void goTo(const scene::Camera& camera, ui::Walker& walker, double now);
     /// What was chosen in the panel. Returns whether the camera changed.
     bool act(const ui::PlaceActions& actions, const Frame& frame);
     /// Messages and the help.

@@ -256,6 +256,10 @@ cli::ExitCode runView(const ViewArguments& arguments) {
     if (arguments.look.pick && !arguments.play.empty()) {
         throw base::UsageError("--pick needs one picture, --play makes many");
     }
+    if (!arguments.camera.eye.empty()) {
+        // Refused before the solving, which may take long.
+        chooseCamera(arguments.camera, {}, {});
+    }
     if (!arguments.screenshot.empty()) {
         return takePicture(arguments, arguments.screenshot);
     }

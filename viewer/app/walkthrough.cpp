@@ -13,6 +13,7 @@
 #include "viewer/app/inspector.h"
 #include "viewer/app/mouse_look.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/tapped_keys.h"
 #include "viewer/app/tour.h"
 #include "viewer/gl/render_target.h"
 #include "viewer/render/scene_renderer.h"
@@ -69,6 +70,7 @@ class Walkthrough {
     render::SceneRenderer renderer_;
     std::unique_ptr<gl::RenderTarget> target_;
     MouseLook mouse_;
+    TappedKeys tappedKeys_;
     ui::Walker walker_;
     ui::ViewSettings settings_;
     solve::Options options_;
@@ -104,6 +106,7 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, Scen
       imguiRenderer_(window.functions()),
       renderer_(window.functions(), exhibit.scene),
       mouse_(window.window()),
+      tappedKeys_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
       settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection},
       options_(exhibit.options.value_or(solve::Options{})),
@@ -342,7 +345,7 @@ void Walkthrough::drawInterface() {
         session_->setPaused(isPaused_);
     }
     if (actions.camera >= 0) {
-        walker_.jumpTo(exhibit_.scene->cameras[static_cast<std::size_t>(actions.camera)]);
+        tour_.goTo(exhibit_.scene->cameras[static_cast<std::size_t>(actions.camera)], walker_, now_);
     }
     const bool isElsewhere = tour_.act(actions.places, {walker_, floor_, now_, false, mouse_.isCaptured()});
     tour_.draw(now_, scale);
@@ -358,6 +361,7 @@ void Walkthrough::step() {
     chooseMovement();
 
     ImGui_ImplGlfw_NewFrame();
+    tappedKeys_.follow();
     ImGui::NewFrame();
     takeKeys();
     const bool isMoving = move(seconds);
