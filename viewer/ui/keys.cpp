@@ -42,7 +42,8 @@ void drawGroup(const KeyGroup& group, float width) {
     for (const KeyLine& line : group.lines) {
         const float left = ImGui::GetCursorPosX();
         ImGui::TextUnformatted(line.keys.data());
-        ImGui::SameLine(left + width);
+        ImGui::SameLine();
+        ImGui::SetCursorPosX(left + width);
         ImGui::TextColored(kTextDim, "%s", line.meaning.data());
     }
     ImGui::Spacing();
@@ -77,6 +78,7 @@ void drawKeyTable(float scale) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.5f * display.x, 0.5f * display.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
     ImGui::SetNextWindowFocus();
+    ImGui::SetNextWindowBgAlpha(1.0f);
     if (ImGui::Begin("Keys", nullptr,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav)) {
@@ -85,6 +87,7 @@ void drawKeyTable(float scale) {
             for (std::size_t i = 0; i < kGroups.size(); ++i) {
                 if (i == kRightHalf) {
                     ImGui::TableNextColumn();
+                    ImGui::Indent(24.0f * scale);
                 }
                 drawGroup(kGroups[i], (i < kRightHalf ? 170.0f : 90.0f) * scale);
             }
