@@ -113,6 +113,13 @@ TEST_F(Walk, BookmarksOrbitsAndPathsLeadBack) {
     EXPECT_TRUE(waitFor([&](const Picture& p) { return difference(p, start) > kOther; }));
     press("1");
     EXPECT_TRUE(waitFor([&](const Picture& p) { return difference(p, start) < kSame; }));
+    // To the short block, and back.
+    point(820, 680);
+    press("g");
+    EXPECT_TRUE(waitFor([&](const Picture& p) { return difference(p, start) > kOther; }));
+    std::this_thread::sleep_for(1s);
+    press("1");
+    EXPECT_TRUE(waitFor([&](const Picture& p) { return difference(p, start) < kSame; }));
 
     press("r");
     hold("d", 1500ms);
