@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/scene/builders.h"
 #include "tests/viewer/test_room.h"
 #include "viewer/app/floor.h"
 
@@ -54,6 +55,14 @@ TEST(FirstView, FromAboveACornerOfAnObject) {
     EXPECT_LT(camera.forward.y, -0.2);
     const Vec3d toCenter = glm::normalize(Vec3d(2.0, 0.0, 2.0) - camera.position);
     EXPECT_GT(glm::dot(toCenter, camera.forward), 0.999);
+}
+
+TEST(FirstView, OnTheFloorNotBelowIt) {
+    // The gallery's floor lies at half the height of its box: its vault is a whole cylinder.
+    const Solid hall(std::make_shared<const scene::Scene>(scene::buildGallery()));
+    const scene::Camera camera = chooseFirstView(hall.rays, hall.scene->bounds());
+    EXPECT_NEAR(camera.position.y, 1.65, 0.05);
+    EXPECT_GT(std::abs(camera.forward.x), 0.85);
 }
 
 TEST(FirstView, OfNothing) {

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/photometry.h"
 #include "core/cli/values.h"
+#include "core/scene/camera_path.h"
 #include "viewer/render/camera.h"
 
 namespace fluxwalk::app {
@@ -66,10 +67,14 @@ scene::Camera chooseCamera(const CameraArguments& arguments, const scene::Scene&
     } else if (!arguments.name.empty()) {
         camera = findCamera(arguments.name, scene);
     } else {
-        camera = scene.cameras.empty() ? firstView() : scene.cameras.front();
+        const bool hasSound = !scene.cameras.empty() && !scene::findFault(scene.cameras.front());
+        camera = hasSound ? scene.cameras.front() : firstView();
     }
     if (arguments.fov > 0.0) {
         camera.verticalFov = arguments.fov * base::kPi / 180.0;
+    }
+    if (const auto fault = scene::findFault(camera)) {
+        throw base::UsageError("the camera " + (camera.name.empty() ? *fault : camera.name + " " + *fault));
     }
     return camera;
 }

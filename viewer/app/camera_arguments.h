@@ -23,8 +23,9 @@ struct CameraArguments {
 
 void addCameraOptions(CLI::App& app, CameraArguments& arguments);
 
-/// The camera asked for, else the scene's first, else what `firstView` finds. Throws base::UsageError for an
-/// unknown name (and lists those there are) or half an eye.
+/// The camera asked for, else the scene's first, else what `firstView` finds; a scene's first that nothing
+/// can be seen through is passed over. Throws base::UsageError for an unknown name (and lists those there
+/// are), half an eye, and an absurd camera.
 scene::Camera chooseCamera(const CameraArguments& arguments, const scene::Scene& scene,
                            const std::function<scene::Camera()>& firstView);
 

@@ -1,6 +1,7 @@
 #include "viewer/app/first_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -34,6 +35,7 @@ std::optional<double> distanceAlong(const rays::RayScene& rays, const Vec3d& fro
 struct Surroundings {
     double closedness = 0.0;  ///< part of the directions that meet something
     double roominess = 0.0;   ///< mean free distance over those
+    double frontness = 0.0;   ///< part of those that meet it from the front of its surface
     Vec3d opening{0.0};       ///< mean of the directions that meet nothing
 };
 
@@ -46,20 +48,25 @@ Surroundings lookAround(const rays::RayScene& rays, const Vec3d& from) {
         const double angle = i * kPi * (3.0 - std::sqrt(5.0));
         const double r = std::sqrt(1.0 - y * y);
         const Vec3d direction(r * std::cos(angle), y, r * std::sin(angle));
-        if (const auto distance = distanceAlong(rays, from, direction)) {
+        const auto hit =
+            rays.closest({base::Vec3(from), 0.0f, base::Vec3(direction), std::numeric_limits<float>::max()});
+        if (hit) {
             ++met;
-            result.roominess += *distance;
+            result.roominess += static_cast<double>(hit->t);
+            result.frontness += hit->back ? 0.0 : 1.0;
         } else {
             result.opening += direction;
         }
     }
     result.closedness = static_cast<double>(met) / kDirections;
     result.roominess /= std::max(met, 1);
+    result.frontness /= std::max(met, 1);
     result.opening /= std::max(kDirections - met, 1);
     return result;
 }
 
-/// Roomiest of a grid of places at eye height that are indoors.
+/// Roomiest of a grid of places at eye height that are indoors. Hollows behind surfaces count half: below a
+/// floor there may be a closed space too.
 std::optional<Vec3d> findIndoors(const rays::RayScene& rays, const base::Box& bounds) {
     const Vec3d size = bounds.size();
     constexpr int kGrid = 5;
@@ -67,9 +74,13 @@ std::optional<Vec3d> findIndoors(const rays::RayScene& rays, const base::Box& bo
     double bestRoominess = 0.0;
     double closedness = 0.0;
     int roofed = 0;
+    // Two heights, neither of which is likely to be that of a floor.
+    constexpr std::array<double, 2> kHeights{0.31, 0.57};
     for (int x = 0; x < kGrid; ++x) {
-        for (int z = 0; z < kGrid; ++z) {
-            Vec3d place = bounds.lower + size * Vec3d((x + 0.5) / kGrid, 0.5, (z + 0.5) / kGrid);
+        for (int k = 0; k < 2 * kGrid; ++k) {
+            const int z = k / 2;
+            const double y = kHeights[static_cast<std::size_t>(k % 2)];
+            Vec3d place = bounds.lower + size * Vec3d((x + 0.5) / kGrid, y, (z + 0.5) / kGrid);
             const auto floor = distanceAlong(rays, place, {0.0, -1.0, 0.0});
             const auto ceiling = distanceAlong(rays, place, {0.0, 1.0, 0.0});
             if (!floor || !ceiling) {
@@ -80,9 +91,10 @@ std::optional<Vec3d> findIndoors(const rays::RayScene& rays, const base::Box& bo
             const Surroundings seen = lookAround(rays, place);
             closedness += seen.closedness;
             ++roofed;
-            if (seen.closedness >= kClosed && seen.roominess > bestRoominess) {
+            const double roominess = seen.roominess * (0.5 + 0.5 * seen.frontness);
+            if (seen.closedness >= kClosed && roominess > bestRoominess) {
                 best = place;
-                bestRoominess = seen.roominess;
+                bestRoominess = roominess;
             }
         }
     }

@@ -1,7 +1,8 @@
 #include "viewer/app/floor.h"
 
 #include <chrono>
-#include <limits>
+
+#include "core/scene/scene_hash.h"
 
 namespace fluxwalk::app {
 
@@ -11,23 +12,39 @@ Solid::Solid(std::shared_ptr<const scene::Scene> shapes)
 
 Floor::Floor(std::shared_ptr<const scene::Scene> scene)
     : building_(std::async(std::launch::async, [scene = std::move(scene)]() mutable {
-          return std::make_unique<Solid>(std::move(scene));
+          const std::uint64_t hash = scene::hashScene(*scene);
+          return Built{std::make_unique<Solid>(std::move(scene)), hash};
       })) {}
 
 bool Floor::isReady() {
     if (building_.valid() && building_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        solid_ = building_.get();
+        Built built = building_.get();
+        solid_ = std::move(built.solid);
+        hash_ = built.hash;
+        walls_ = {solid_->scene.get(), &solid_->rays};
     }
     return solid_ != nullptr;
 }
 
 std::optional<double> Floor::below(const base::Vec3d& point) {
-    if (!isReady()) {
+    return isReady() ? ui::Body::findGround(walls_, point) : std::nullopt;
+}
+
+const ui::Walls* Floor::walls() {
+    return isReady() ? &walls_ : nullptr;
+}
+
+std::optional<Floor::Met> Floor::meet(const rays::Ray& ray) {
+    const auto hit = isReady() ? solid_->rays.closest(ray) : std::nullopt;
+    if (!hit) {
         return std::nullopt;
     }
-    const auto hit = solid_->rays.closest(
-        {base::Vec3(point), 0.0f, base::Vec3(0.0f, -1.0f, 0.0f), std::numeric_limits<float>::max()});
-    return hit ? std::optional(point.y - static_cast<double>(hit->t)) : std::nullopt;
+    const base::Vec3d point(ray.origin + hit->t * ray.direction);
+    return Met{point, solid_->scene->objects[base::index(hit->object)].surface->bounds()};
+}
+
+std::optional<std::uint64_t> Floor::sceneHash() {
+    return isReady() ? std::optional(hash_) : std::nullopt;
 }
 
 }  // namespace fluxwalk::app

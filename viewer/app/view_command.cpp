@@ -10,18 +10,22 @@
 #include "core/cli/checkpointing.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
+#include "core/cli/values.h"
 #include "core/io/image_write.h"
 #include "core/io/lit_gltf.h"
+#include "core/io/visitor_files.h"
 #include "viewer/app/camera_arguments.h"
 #include "viewer/app/choice.h"
 #include "viewer/app/first_view.h"
 #include "viewer/app/floor.h"
 #include "viewer/app/look_arguments.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/picture_sequence.h"
 #include "viewer/app/picture_size.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/sight.h"
 #include "viewer/app/walkthrough.h"
+#include "viewer/ui/keys.h"
 
 namespace fluxwalk::app {
 namespace {
@@ -39,6 +43,8 @@ struct ViewArguments {
     cli::OutputArguments output;
     CameraArguments camera;
     std::filesystem::path screenshot;
+    std::filesystem::path play;
+    double framesPerSecond = 30.0;
     gl::PixelSize size = kDefaultPicture;
     GlChoice gl = GlChoice::automatic;
     LookArguments look;
@@ -114,8 +120,30 @@ image::Inspection inspectPixel(const solve::Problem& problem, const scene::Camer
     return std::move(*inspection);
 }
 
+/// A camera for each picture, and where it goes.
+struct Shot {
+    scene::Camera camera;
+    std::filesystem::path file;
+};
+
+/// The one picture asked for, or those of a path.
+std::vector<Shot> planShots(const ViewArguments& arguments, const std::filesystem::path& file,
+                            const std::function<scene::Camera()>& camera) {
+    if (arguments.play.empty()) {
+        return {{camera(), file}};
+    }
+    const scene::CameraPath path = io::readCameraPath(arguments.play);
+    const PictureSequence sequence(file);
+    std::vector<Shot> shots;
+    for (unsigned i = 0; i < countPictures(scene::durationOf(path), arguments.framesPerSecond); ++i) {
+        shots.push_back({scene::cameraAt(path, i / arguments.framesPerSecond), sequence.file(i)});
+    }
+    return shots;
+}
+
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
-    cli::requireWritable(file);
+    // A bad path or name is told before the solving, which may take long.
+    cli::requireWritable(planShots(arguments, file, [] { return scene::Camera{}; }).front().file);
     if ((arguments.look.inspection.links || arguments.look.inspection.contributors) && !arguments.look.pick) {
         throw base::UsageError("--overlay links and --overlay contributors need the point of --pick X,Y");
     }
@@ -133,31 +161,37 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
         solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
         shown = {solved->scene, *solved->solver->show(detailFor(arguments.look.draw)), solved->scene};
     }
-    const scene::Camera camera = cameraFor(arguments, shown);
+    const std::vector<Shot> shots = planShots(arguments, file, [&] { return cameraFor(arguments, shown); });
     std::optional<image::Inspection> inspection;
     if (arguments.look.pick) {
-        inspection = inspectPixel(solved->solver->problem(), camera, arguments.size, *arguments.look.pick);
+        inspection = inspectPixel(solved->solver->problem(), shots.front().camera, arguments.size,
+                                  *arguments.look.pick);
     }
-    const std::vector<std::uint8_t> pixels =
-        drawPicture(*context, shown.scene, shown.snapshot, camera, arguments.size, arguments.look.draw,
-                    {inspection ? &*inspection : nullptr, arguments.look.inspection});
-    cli::writeOutput([&] {
-        io::writePng(file, static_cast<std::uint32_t>(arguments.size.width),
-                     static_cast<std::uint32_t>(arguments.size.height), pixels);
-    });
+    std::vector<std::string> files;
+    for (const Shot& shot : shots) {
+        const std::vector<std::uint8_t> pixels = drawPicture(
+            *context, shown.scene, shown.snapshot, shot.camera, arguments.size, arguments.look.draw,
+            {inspection ? &*inspection : nullptr, arguments.look.inspection});
+        cli::writeOutput([&] {
+            io::writePng(shot.file, static_cast<std::uint32_t>(arguments.size.width),
+                         static_cast<std::uint32_t>(arguments.size.height), pixels);
+        });
+        files.push_back(shot.file.string());
+    }
     if (!solved) {
         return cli::ExitCode::success;
     }
     if (inspection) {
         std::fputs(ui::describeInspection(*inspection, *shown.scene).c_str(), stdout);
     }
-    cli::completeReport(*solved, {file.string()});
+    cli::completeReport(*solved, files);
     cli::deliver(solved->report, arguments.output);
     return solved->exitCode();
 }
 
-cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& window) {
-    Exhibit exhibit;
+/// What a window shows of the arguments' scene. Runs on any thread.
+std::unique_ptr<Exhibit> makeExhibit(const ViewArguments& arguments) {
+    auto exhibit = std::make_unique<Exhibit>();
     Shown shown;
     if (isLit(arguments.scene.scene)) {
         requireNoSolution(arguments.look);
@@ -166,12 +200,12 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
         const auto checkpointing = std::make_shared<cli::Checkpointing>(arguments.solver);
         shown.scene = std::make_shared<const scene::Scene>(cli::loadScene(arguments.scene));
         shown.solid = shown.scene;
-        exhibit.options = checkpointing->options();
-        exhibit.solver.make = [checkpointing, scene = shown.scene,
-                               threads = arguments.solver.threads](const solve::Options& options) {
+        exhibit->options = checkpointing->options();
+        exhibit->solver.make = [checkpointing, scene = shown.scene,
+                                threads = arguments.solver.threads](const solve::Options& options) {
             return checkpointing->makeSolver(scene, options, threads);
         };
-        exhibit.solver.resumable = [checkpointing](const solve::Solver& solver, solve::Moment moment) {
+        exhibit->solver.resumable = [checkpointing](const solve::Solver& solver, solve::Moment moment) {
             checkpointing->keep(solver, moment);
         };
         if (!arguments.output.quiet) {
@@ -180,21 +214,52 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
             }
         }
     }
-    exhibit.camera = cameraFor(arguments, shown);
-    exhibit.look = arguments.look.draw;
-    exhibit.inspection = arguments.look.inspection;
-    exhibit.isProbing = exhibit.inspection.links || exhibit.inspection.contributors;
-    exhibit.scene = shown.scene;
-    if (!exhibit.options) {
-        exhibit.lit = std::make_shared<const solve::Snapshot>(std::move(shown.snapshot));
+    if (cli::namesFile(arguments.scene.scene)) {
+        exhibit->file = arguments.scene.scene;
     }
-    exhibit.solid = shown.solid;
-    walkThrough(window, exhibit);
+    exhibit->camera = cameraFor(arguments, shown);
+    exhibit->look = arguments.look.draw;
+    exhibit->inspection = arguments.look.inspection;
+    exhibit->isProbing = exhibit->inspection.links || exhibit->inspection.contributors;
+    exhibit->scene = shown.scene;
+    if (!exhibit->options) {
+        exhibit->lit = std::make_shared<const solve::Snapshot>(std::move(shown.snapshot));
+    }
+    exhibit->solid = shown.solid;
+    return exhibit;
+}
+
+/// Another scene, opened in the window: solved in the same way, seen from where it is good.
+std::unique_ptr<Exhibit> openOther(const ViewArguments& arguments, const std::string& scene) {
+    ViewArguments other;
+    other.scene = arguments.scene;
+    other.scene.scene = scene;
+    other.solver = arguments.solver;
+    other.solver.checkpoint.clear();
+    other.solver.resume.clear();
+    other.output = arguments.output;
+    return makeExhibit(other);
+}
+
+cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& window) {
+    auto exhibit = makeExhibit(arguments);
+    if (!arguments.play.empty()) {
+        exhibit->path = io::readCameraPath(arguments.play);
+    }
+    walkThrough(window, std::move(exhibit),
+                [&arguments](const std::string& scene) { return openOther(arguments, scene); });
     return cli::ExitCode::success;
 }
 
 cli::ExitCode runView(const ViewArguments& arguments) {
     checkLook(arguments.look);
+    if (arguments.look.pick && !arguments.play.empty()) {
+        throw base::UsageError("--pick needs one picture, --play makes many");
+    }
+    if (!arguments.camera.eye.empty()) {
+        // Refused before the solving, which may take long.
+        chooseCamera(arguments.camera, {}, {});
+    }
     if (!arguments.screenshot.empty()) {
         return takePicture(arguments, arguments.screenshot);
     }
@@ -209,7 +274,7 @@ cli::ExitCode runView(const ViewArguments& arguments) {
     try {
         window.emplace("Fluxwalk", kWindowSize, true);
     } catch (const gl::ContextUnavailable& error) {
-        if (arguments.gl == GlChoice::window) {
+        if (arguments.gl == GlChoice::window || !arguments.play.empty()) {
             throw;
         }
         const std::filesystem::path file = std::filesystem::absolute(kFallbackPicture);
@@ -246,6 +311,20 @@ cli::Command viewCommand() {
                    "a display. By default egl, or osmesa where that cannot be had.")
                 ->type_name("auto|egl|osmesa|window")
                 ->group("Picture");
+            app.add_option("--play", arguments->play,
+                           "A recorded path to go along: in the window, or in the numbered pictures of "
+                           "--screenshot OUT_%04d.png.")
+                ->type_name("PATH.json")
+                ->group("Picture");
+            app.add_option_function<std::string>(
+                   "--fps",
+                   [arguments](const std::string& text) {
+                       arguments->framesPerSecond = cli::parseNumberOption("--fps", text, 0.01, 1000.0, "Hz");
+                   },
+                   "Pictures for each second of the path; 30 by default.")
+                ->type_name("N")
+                ->group("Picture");
+            app.footer(ui::describeKeys());
             addLookOptions(app, arguments->look);
             cli::addSolverOptions(app, arguments->solver);
             cli::addOutputOptions(app, arguments->output);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -11,6 +13,8 @@
 #include "viewer/app/inspector.h"
 #include "viewer/app/mouse_look.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/tapped_keys.h"
+#include "viewer/app/tour.h"
 #include "viewer/gl/render_target.h"
 #include "viewer/render/scene_renderer.h"
 #include "viewer/ui/imgui_context.h"
@@ -40,12 +44,15 @@ constexpr double kHighestEyes = 2.3;
 /// The window, its parts and their state: one frame is one call of step().
 class Walkthrough {
   public:
-    Walkthrough(gl::WindowContext& window, const Exhibit& exhibit);
+    Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, SceneOpener& opener);
 
     void step();
+    /// The solver, to be stopped elsewhere; null for none. Nothing else may be called afterwards.
+    std::unique_ptr<session::SolverSession> release() { return std::move(session_); }
 
   private:
     void waitForWork();
+    void followDisplay();
     void takeSnapshot();
     void show(std::shared_ptr<const solve::Snapshot> snapshot);
     void followOverlays();
@@ -63,6 +70,7 @@ class Walkthrough {
     render::SceneRenderer renderer_;
     std::unique_ptr<gl::RenderTarget> target_;
     MouseLook mouse_;
+    TappedKeys tappedKeys_;
     ui::Walker walker_;
     ui::ViewSettings settings_;
     solve::Options options_;
@@ -86,24 +94,28 @@ class Walkthrough {
     bool isAnimating_ = true;
     render::DrawSettings drawn_;
     Floor floor_;
+    Tour tour_;
     /// Last, so that the solver stops before anything it may wake goes.
-    std::optional<session::SolverSession> session_;
+    std::unique_ptr<session::SolverSession> session_;
 };
 
-Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit)
+Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, SceneOpener& opener)
     : window_(window),
       exhibit_(exhibit),
       imgui_(window.contentScale(), window.window()),
       imguiRenderer_(window.functions()),
       renderer_(window.functions(), exhibit.scene),
       mouse_(window.window()),
+      tappedKeys_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
       settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection},
       options_(exhibit.options.value_or(solve::Options{})),
       now_(glfwGetTime()),
-      floor_(exhibit.solid) {
+      floor_(exhibit.solid),
+      tour_(window, exhibit, opener) {
     if (exhibit.options) {
-        session_.emplace(session::solveWith(exhibit.solver), *exhibit.options, [] { glfwPostEmptyEvent(); });
+        session_ = std::make_unique<session::SolverSession>(session::solveWith(exhibit.solver),
+                                                            *exhibit.options, [] { glfwPostEmptyEvent(); });
     } else {
         show(exhibit.lit);
     }
@@ -119,6 +131,15 @@ void Walkthrough::waitForWork() {
     }
     const bool hadEvent = glfwGetTime() - start < timeout - 1e-3;
     framesToSettle_ = hadEvent ? kSettlingFrames : std::max(0, framesToSettle_ - 1);
+}
+
+// The window may have been moved to a display with other pixels.
+void Walkthrough::followDisplay() {
+    if (const float scale = window_.contentScale(); scale != imgui_.scale()) {
+        imgui_.rescale(scale);
+        imguiRenderer_.takeGlyphs();
+        framesToSettle_ = kSettlingFrames;
+    }
 }
 
 void Walkthrough::takeSnapshot() {
@@ -246,12 +267,16 @@ bool Walkthrough::move(double seconds) {
         input.fast = io.KeyShift;
         input.slow = io.KeyCtrl;
     }
-    if (io.MouseWheel != 0.0f && !io.WantCaptureMouse) {
+    const bool isSteered =
+        input.turn != 0.0 || input.tilt != 0.0 || input.ahead != 0.0 || input.right != 0.0 || input.up != 0.0;
+    if (tour_.lead({walker_, floor_, now_, isSteered, mouse_.isCaptured()})) {
+        return true;
+    }
+    if (io.MouseWheel != 0.0f && !io.WantCaptureMouse && !tour_.isOrbiting()) {
         walker_.speed =
             std::clamp(walker_.speed * std::pow(1.15, static_cast<double>(io.MouseWheel)), 0.01, 100.0);
     }
-    const bool changed =
-        walker_.update(input, seconds, [this](const base::Vec3d& point) { return floor_.below(point); });
+    const bool changed = walker_.update(input, seconds, floor_.walls());
     return changed || input.ahead != 0.0 || input.right != 0.0 || input.up != 0.0;
 }
 
@@ -296,9 +321,11 @@ void Walkthrough::drawInterface() {
     info.framesPerSecond = framesPerSecond_;
     info.renderer = window_.renderer();
     info.shownRange = renderer_.rangeOf(settings_.draw);
+    info.places = tour_.places();
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
-    inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse);
+    inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse &&
+            !tour_.isOrbiting());
     const ui::Canvas canvas{scale, kKeysHeight * scale};
     if (faceLegend_) {
         ui::drawLegend(*faceLegend_, canvas);
@@ -318,19 +345,23 @@ void Walkthrough::drawInterface() {
         session_->setPaused(isPaused_);
     }
     if (actions.camera >= 0) {
-        walker_.jumpTo(exhibit_.scene->cameras[static_cast<std::size_t>(actions.camera)]);
+        tour_.goTo(exhibit_.scene->cameras[static_cast<std::size_t>(actions.camera)], walker_, now_);
     }
-    needsDrawing_ |= actions.camera >= 0 || fov != walker_.verticalFov();
+    const bool isElsewhere = tour_.act(actions.places, {walker_, floor_, now_, false, mouse_.isCaptured()});
+    tour_.draw(now_, scale);
+    needsDrawing_ |= actions.camera >= 0 || isElsewhere || fov != walker_.verticalFov();
 }
 
 void Walkthrough::step() {
     waitForWork();
     const double seconds = std::min(glfwGetTime() - now_, 0.1);
     now_ = glfwGetTime();
+    followDisplay();
     takeSnapshot();
     chooseMovement();
 
     ImGui_ImplGlfw_NewFrame();
+    tappedKeys_.follow();
     ImGui::NewFrame();
     takeKeys();
     const bool isMoving = move(seconds);
@@ -338,6 +369,7 @@ void Walkthrough::step() {
         lastMove_ = now_;
         needsDrawing_ = true;
     }
+    tour_.record({walker_, floor_, now_});
     drawInterface();
     followOverlays();
     ImGui::Render();
@@ -359,13 +391,27 @@ void Walkthrough::step() {
 
 }  // namespace
 
-void walkThrough(gl::WindowContext& window, const Exhibit& exhibit) {
-    Walkthrough walkthrough(window, exhibit);
-    while (glfwWindowShouldClose(window.window()) == GLFW_FALSE) {
-        walkthrough.step();
+void walkThrough(gl::WindowContext& window, std::unique_ptr<Exhibit> exhibit, const OpenScene& open) {
+    // Solvers of scenes that were left end at their next wave; nobody need wait for them before the end.
+    std::vector<std::future<void>> leaving;
+    SceneOpener opener(window.window(), open);
+    while (exhibit) {
+        const std::string& name = exhibit->scene->name;
+        glfwSetWindowTitle(window.window(), (name.empty() ? "Fluxwalk" : name + " - Fluxwalk").c_str());
+        std::unique_ptr<Exhibit> next;
+        Walkthrough walkthrough(window, *exhibit, opener);
+        while (!next && glfwWindowShouldClose(window.window()) == GLFW_FALSE) {
+            walkthrough.step();
+            next = opener.takeReady();
+        }
+        if (!next) {
+            // Nobody need look at a dead window until the solver ends.
+            glfwHideWindow(window.window());
+        }
+        leaving.push_back(
+            std::async(std::launch::async, [old = walkthrough.release()]() mutable { old.reset(); }));
+        exhibit = std::move(next);
     }
-    // The solver ends at its next wave; nobody need look at a dead window until then.
-    glfwHideWindow(window.window());
 }
 
 }  // namespace fluxwalk::app

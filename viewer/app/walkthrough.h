@@ -1,37 +1,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "core/scene/lit_mesh.h"
-#include "core/scene/scene.h"
-#include "core/solve/options.h"
+#include "viewer/app/exhibit.h"
+#include "viewer/app/scene_opener.h"
 #include "viewer/gl/window_context.h"
-#include "viewer/render/scene_renderer.h"
-#include "viewer/session/solver_session.h"
-#include "viewer/ui/inspection.h"
 
 namespace fluxwalk::app {
 
-/// What to walk through.
-struct Exhibit {
-    std::shared_ptr<const scene::Scene> scene;
-    scene::Camera camera;
-    /// What is shown at first.
-    render::DrawSettings look;
-    bool isProbing = false;
-    ui::InspectionView inspection;
-    /// A lit file's meshes; null where the scene is solved.
-    std::shared_ptr<const solve::Snapshot> lit;
-    /// Its shapes as objects, for the floor: the scene itself, or one made of a lit file's meshes.
-    std::shared_ptr<const scene::Scene> solid;
-    /// How to solve; nothing for a lit file.
-    std::optional<solve::Options> options;
-    session::SolverSource solver;
-};
-
-/// Runs the window until it is closed. Where a scene is solved, the solver starts at once and is stopped at
-/// the end.
-void walkThrough(gl::WindowContext& window, const Exhibit& exhibit);
+/// Runs the window until it is closed, through the first exhibit and those that the user opens. Where a scene
+/// is solved, the solver starts at once and is stopped when the scene is left; the window does not wait for
+/// that.
+void walkThrough(gl::WindowContext& window, std::unique_ptr<Exhibit> exhibit, const OpenScene& open);
 
 }  // namespace fluxwalk::app

@@ -1,5 +1,7 @@
 #include "viewer/gl/window_context.h"
 
+#include <algorithm>
+
 #include <GLFW/glfw3.h>
 
 namespace fluxwalk::gl {
@@ -13,6 +15,31 @@ namespace {
         message += std::string(" (") + reason + ")";
     }
     throw ContextUnavailable(message);
+}
+
+/// The monitor that shows most of a rectangle; null where there is none at all.
+GLFWmonitor* monitorOf(int x, int y, PixelSize size) {
+    int count = 0;
+    GLFWmonitor** const monitors = glfwGetMonitors(&count);
+    GLFWmonitor* best = glfwGetPrimaryMonitor();
+    long mostArea = 0;
+    for (int i = 0; i < count; ++i) {
+        int left = 0;
+        int top = 0;
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        if (mode == nullptr) {
+            continue;
+        }
+        const long width = std::min(x + size.width, left + mode->width) - std::max(x, left);
+        const long height = std::min(y + size.height, top + mode->height) - std::max(y, top);
+        const long area = std::max(0L, width) * std::max(0L, height);
+        if (area > mostArea) {
+            best = monitors[i];
+            mostArea = area;
+        }
+    }
+    return best;
 }
 
 }  // namespace
@@ -64,6 +91,28 @@ float WindowContext::contentScale() const {
     float y = 1.0f;
     glfwGetWindowContentScale(window_, &x, &y);
     return x > 0.0f ? x : 1.0f;
+}
+
+bool WindowContext::isFullScreen() const {
+    return glfwGetWindowMonitor(window_) != nullptr;
+}
+
+void WindowContext::setFullScreen(bool full) {
+    if (full == isFullScreen()) {
+        return;
+    }
+    if (!full) {
+        glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, place_.size.width, place_.size.height,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    glfwGetWindowPos(window_, &place_.x, &place_.y);
+    glfwGetWindowSize(window_, &place_.size.width, &place_.size.height);
+    GLFWmonitor* const monitor = monitorOf(place_.x, place_.y, place_.size);
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode != nullptr) {
+        glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    }
 }
 
 void WindowContext::swapBuffers() {

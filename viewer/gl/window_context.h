@@ -25,8 +25,18 @@ class WindowContext final : public Context {
     float contentScale() const;
     void swapBuffers();
 
+    bool isFullScreen() const;
+    /// Fills the monitor that shows most of the window, or gives the window its place back.
+    void setFullScreen(bool full);
+
   private:
     GLFWwindow* window_ = nullptr;
+    /// Of the window before it filled the screen, in screen coordinates.
+    struct Place {
+        int x = 0;
+        int y = 0;
+        PixelSize size;
+    } place_;
 };
 
 }  // namespace fluxwalk::gl

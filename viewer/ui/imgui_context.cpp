@@ -51,6 +51,13 @@ ImguiContext::ImguiContext(float scale, GLFWwindow* window) : ImguiContext(scale
     hasWindow_ = true;
 }
 
+void ImguiContext::rescale(float scale) {
+    scale_ = scale;
+    ImGui::GetIO().Fonts->Clear();
+    addFont(scale);
+    applyTheme(scale);
+}
+
 ImguiContext::~ImguiContext() {
     if (hasWindow_) {
         ImGui_ImplGlfw_Shutdown();

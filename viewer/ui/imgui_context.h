@@ -18,6 +18,8 @@ class ImguiContext {
     ImguiContext& operator=(const ImguiContext&) = delete;
 
     float scale() const { return scale_; }
+    /// Theme and font for another display; not within a frame. The renderer must take the glyphs anew.
+    void rescale(float scale);
 
   private:
     float scale_;

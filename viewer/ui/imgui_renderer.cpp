@@ -26,16 +26,7 @@ ImguiRenderer::ImguiRenderer(const gl::Functions& gl)
     ImGuiIO& io = ImGui::GetIO();
     io.BackendRendererName = "fluxwalk";
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    unsigned char* pixels = nullptr;
-    int width = 0;
-    int height = 0;
-    io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-    gl.ActiveTexture(GL_TEXTURE0);
-    gl.BindTexture(GL_TEXTURE_2D, glyphs_.id());
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    takeGlyphs();
 
     gl.BindVertexArray(array_.id());
     gl.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
@@ -50,6 +41,19 @@ ImguiRenderer::ImguiRenderer(const gl::Functions& gl)
     attribute(1, 2, GL_FLOAT, GL_FALSE, offsetof(ImDrawVert, uv));
     attribute(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ImDrawVert, col));
     gl.BindVertexArray(0);
+}
+
+void ImguiRenderer::takeGlyphs() {
+    unsigned char* pixels = nullptr;
+    int width = 0;
+    int height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, glyphs_.id());
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 }
 
 void ImguiRenderer::draw(const ImDrawData& data) const {

@@ -12,6 +12,8 @@ class ImguiRenderer {
   public:
     explicit ImguiRenderer(const gl::Functions& gl);
 
+    /// Takes the glyphs of the present ImGui context's fonts; to be called when these changed.
+    void takeGlyphs();
     /// Draws over what the bound framebuffer holds.
     void draw(const ImDrawData& data) const;
 

@@ -260,6 +260,9 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
             }
             drawMovement(info, settings, walker, actions);
         }
+        if (beginSection("Places")) {
+            actions.places = drawPlaces(info.places);
+        }
         if (beginSection("Statistics")) {
             drawStatistics(info);
         }
@@ -279,9 +282,9 @@ void drawKeys(bool isCaptured, Movement movement, float scale) {
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
                          ImGuiWindowFlags_NoNav)) {
-        ImGui::TextColored(
-            kTextDim, "WASD move    Q E down, up    %s    %s    C lux    I inspect    P pause    H panel",
-            look, other);
+        ImGui::TextColored(kTextDim,
+                           "F1 all keys    WASD move    %s    %s    C lux    I inspect    P pause    H panel",
+                           look, other);
     }
     ImGui::End();
 }

@@ -8,6 +8,7 @@
 #include "viewer/session/solver_session.h"
 #include "viewer/ui/exposure_control.h"
 #include "viewer/ui/inspection.h"
+#include "viewer/ui/places.h"
 #include "viewer/ui/walker.h"
 
 namespace fluxwalk::ui {
@@ -37,6 +38,7 @@ struct PanelInfo {
     std::string renderer;
     /// Range in which values are shown at present.
     render::ValueRange shownRange;
+    Places places;
 };
 
 /// What the user did in one frame, beside changing the structures passed in.
@@ -46,6 +48,7 @@ struct PanelActions {
     bool steps = false;
     /// Index of a scene camera to go to, -1 for none.
     int camera = -1;
+    PlaceActions places;
 };
 
 /// Draws the panel at the left edge of the window. `scale` is 1 at 96 dpi.

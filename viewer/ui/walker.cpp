@@ -13,11 +13,15 @@ using base::Vec3d;
 
 /// Just short of straight up and down, where "ahead" loses its meaning.
 constexpr double kSteepest = 0.499 * base::kPi;
-/// Seconds in which the eye follows steps of the floor.
-constexpr double kStepTime = 0.12;
-/// Metres above the floor between which somebody who begins to walk keeps the height of the eyes.
+/// Lowest eyes in metres.
 constexpr double kLowestEyes = 0.05;
-constexpr double kHighestEyes = 2.5;
+/// Heights above the floor, for each metre of the height of the eyes, which somebody who begins to walk
+/// keeps.
+constexpr double kLeastKept = 0.7;
+constexpr double kMostKept = 1.25;
+/// A scene of a smaller diagonal in metres is a model; its visitors' eyes are at this part of its height.
+constexpr double kModelSize = 2.5;
+constexpr double kModelEyes = 0.45;
 
 }  // namespace
 
@@ -26,12 +30,16 @@ Walker::Walker(scene::Camera camera, const base::Box& bounds) : camera_(std::mov
     if (diagonal > 0.0) {
         // A person's pace in a building; small models and landscapes are crossed in about ten seconds.
         speed = std::clamp(1.5, diagonal / 12.0, diagonal / 4.0);
+        if (diagonal < kModelSize) {
+            eyeHeight = std::clamp(kModelEyes * bounds.size().y, kLowestEyes, eyeHeight);
+        }
     }
     takeAngles();
 }
 
 void Walker::jumpTo(const scene::Camera& camera) {
     camera_ = camera;
+    body_.lift();
     takeAngles();
 }
 
@@ -44,7 +52,7 @@ void Walker::takeAngles() {
     pitch_ = std::clamp(pitch_, -kSteepest, kSteepest);
 }
 
-bool Walker::update(const WalkInput& input, double seconds, const FindFloor& findFloor) {
+bool Walker::update(const WalkInput& input, double seconds, const Walls* walls) {
     const bool turns = input.turn != 0.0 || input.tilt != 0.0;
     const bool moves = input.ahead != 0.0 || input.right != 0.0 || input.up != 0.0;
     if (turns) {
@@ -54,9 +62,9 @@ bool Walker::update(const WalkInput& input, double seconds, const FindFloor& fin
             Vec3d(-std::sin(yaw_) * std::cos(pitch_), std::sin(pitch_), -std::cos(yaw_) * std::cos(pitch_));
         camera_.up = Vec3d(0.0, 1.0, 0.0);
     }
-    bool changed = turns;
+    const bool walks = movement == Movement::walk;
+    Vec3d step(0.0);
     if (moves) {
-        const bool walks = movement == Movement::walk;
         const Vec3d level(-std::sin(yaw_), 0.0, -std::cos(yaw_));
         const Vec3d right(std::cos(yaw_), 0.0, -std::sin(yaw_));
         Vec3d direction = (walks ? level : camera_.forward) * input.ahead + right * input.right;
@@ -64,32 +72,34 @@ bool Walker::update(const WalkInput& input, double seconds, const FindFloor& fin
             direction /= length;
         }
         const double pace = speed * (input.fast ? 3.0 : 1.0) * (input.slow ? 0.25 : 1.0) * seconds;
-        camera_.position += direction * pace;
+        step = direction * pace;
         if (walks) {
             eyeHeight = std::max(kLowestEyes, eyeHeight + input.up * pace);
         } else {
-            camera_.position.y += input.up * pace;
-        }
-        changed = true;
-    }
-    if (movement == Movement::fly) {
-        isOnFeet_ = false;
-    } else {
-        if (const auto floor = findFloor ? findFloor(camera_.position) : std::nullopt) {
-            const double present = camera_.position.y - *floor;
-            if (!isOnFeet_ && present > kLowestEyes && present < kHighestEyes) {
-                eyeHeight = present;
-            }
-            isOnFeet_ = true;
-            const double wanted = *floor + eyeHeight;
-            const double missing = wanted - camera_.position.y;
-            if (std::abs(missing) > 1e-4) {
-                camera_.position.y += missing * (1.0 - std::exp(-seconds / kStepTime));
-                changed = true;
-            }
+            step.y += input.up * pace;
         }
     }
-    return changed;
+    if (walks) {
+        return walk(step, seconds, walls) || turns;
+    }
+    body_.lift();
+    camera_.position += step;
+    return turns || moves;
+}
+
+bool Walker::walk(const Vec3d& step, double seconds, const Walls* walls) {
+    if (walls == nullptr) {
+        camera_.position += step;
+        return step != Vec3d(0.0);
+    }
+    if (!body_.isOnGround()) {
+        const auto ground = Body::findGround(*walls, camera_.position);
+        const double present = camera_.position.y - ground.value_or(camera_.position.y);
+        if (present > kLeastKept * eyeHeight && present < kMostKept * eyeHeight) {
+            eyeHeight = present;
+        }
+    }
+    return body_.move(*walls, camera_.position, step, seconds, eyeHeight);
 }
 
 }  // namespace fluxwalk::ui

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "core/base/bounds.h"
 #include "core/scene/scene.h"
+#include "viewer/ui/body.h"
 
 namespace fluxwalk::ui {
 
@@ -25,18 +23,17 @@ struct WalkInput {
     double tilt = 0.0;
 };
 
-/// Height of the floor below a point in metres (its y), if there is one.
-using FindFloor = std::function<std::optional<double>(const base::Vec3d&)>;
-
 /// The visitor: a camera that walks or flies through the scene.
 class Walker {
   public:
-    /// Starts at `camera`. Speeds follow the scene's size.
+    /// Starts at `camera`. Speeds follow the scene's size, and the eyes of a visitor to a small model are
+    /// low.
     Walker(scene::Camera camera, const base::Box& bounds);
 
     void jumpTo(const scene::Camera& camera);
-    /// Moves by `seconds` of input. Returns whether the camera changed.
-    bool update(const WalkInput& input, double seconds, const FindFloor& findFloor);
+    /// Moves by `seconds` of input. Who walks stands on `walls` and stops at them; null while they are not
+    /// known: then nothing is in the way. Returns whether the camera changed.
+    bool update(const WalkInput& input, double seconds, const Walls* walls);
 
     /// The view now; exactly the given camera until the visitor moves.
     const scene::Camera& camera() const { return camera_; }
@@ -47,16 +44,16 @@ class Walker {
 
     Movement movement = Movement::fly;
     /// Metres above the floor when walking.
-    double eyeHeight = 1.65;
+    double eyeHeight = 1.6;
     /// Metres a second.
     double speed = 1.5;
 
   private:
     void takeAngles();
+    bool walk(const base::Vec3d& step, double seconds, const Walls* walls);
 
     scene::Camera camera_;
-    /// Whether the height of the eyes was taken since walking began.
-    bool isOnFeet_ = false;
+    Body body_;
     double yaw_ = 0.0;    ///< radians about +y, 0 looks along -z
     double pitch_ = 0.0;  ///< radians above the horizon
 };
