@@ -10,12 +10,17 @@
 namespace fluxwalk::solve {
 
 /// What comes next within a level.
-enum class Stage : std::uint8_t { tighten, refine, sweep };
+enum class Stage : std::uint8_t {
+    tighten,
+    refine,
+    sweep,
+    follow  ///< sweeps that let the light follow turned lights, over the links that stand
+};
 
 /// What the loop over the levels carries along, beside the Problem.
 struct LoopState {
     Stage stage = Stage::tighten;
-    int sweeps = 0;             ///< of this level that are done
+    int sweeps = 0;             ///< of this level, or that follow turned lights, that are done
     bool isCoarsening = false;  ///< this level began anew at the root
     bool isStarted = false;
     double ambient = 0.0;       ///< lux, first guess for what is not lit yet
@@ -26,7 +31,7 @@ struct LoopState {
     std::optional<std::uint64_t> sceneHash;  ///< once it was asked for
 };
 
-/// The state at a Moment. Nodes come with their names and the light that is not given by the scene, links
+/// The state at a Moment. The lights are as the solution follows them. Nodes come with their names and the light that is not given by the scene, links
 /// with every field, in their orders; units are those of the structures.
 base::NamedArrays saveState(const Problem& problem, LoopState& loop);
 
@@ -36,7 +41,7 @@ base::NamedArrays saveState(const Problem& problem, LoopState& loop);
 void restoreState(Problem& problem, LoopState& loop, const base::NamedArrays& arrays,
                   const std::string& file);
 
-/// The options that a state was solved with; those that the table of options does not know, and the limits
+/// The options that a state was solved with, lights included; those that the table of options does not know, and the limits
 /// of time and memory, come from `others`. Throws base::FileError.
 Options storedOptions(const base::NamedArrays& arrays, const Options& others, const std::string& file);
 

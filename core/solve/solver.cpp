@@ -153,6 +153,7 @@ void Solver::start() {
     State& state = *state_;
     Problem& problem = state.problem;
     state.loop.isStarted = true;
+    problem.hierarchy.relight(problem.options.lighting, problem.executor);
     state.loop.ambient = estimateAmbient(problem);
     seedRadiosity(problem, state.loop.ambient);
     problem.statistics.meanIrradiance = state.loop.ambient;
@@ -183,6 +184,41 @@ void Solver::tighten() {
     }
 }
 
+// Turns the lights; sweeps then follow. Thresholds keep their meaning beside the light there is.
+void Solver::relight() {
+    State& state = *state_;
+    Problem& problem = state.problem;
+    Statistics& statistics = problem.statistics;
+    if (state.loop.ambient <= 0.0) {
+        // All was dark: nothing is refined yet.
+        start();
+        return;
+    }
+    if (!problem.pending.empty()) {
+        // What was restored in the midst of refinement stands as it is.
+        refineLinks(problem, statistics.threshold, state.budget(), [] { return true; });
+    }
+    problem.hierarchy.relight(problem.options.lighting, problem.executor);
+    if (const double ambient = estimateAmbient(problem); ambient > 0.0) {
+        const double ratio = ambient / state.loop.ambient;
+        statistics.threshold = std::max(statistics.threshold * ratio, problem.options.threshold);
+        state.loop.ambient = ambient;
+    }
+    problem.rowScale.clear();
+    statistics.estimatedError = -1.0;
+    state.loop.stage = Stage::follow;
+    state.loop.sweeps = 0;
+}
+
+// The next level refines what the new light asks for to the threshold there is, and is compared with this one.
+void Solver::finishFollowing() {
+    State& state = *state_;
+    const StageTimer timer(state.problem.statistics.times.audit);
+    state.loop.gathered = gatherProbes(state.problem, state.probes);
+    state.loop.stage = Stage::refine;
+    state.loop.isCoarsening = false;
+}
+
 Outcome Solver::solve(const Callbacks& callbacks) {
     State& state = *state_;
     Problem& problem = state.problem;
@@ -203,10 +239,30 @@ Outcome Solver::solve(const Callbacks& callbacks) {
                statistics.threshold < 1e-9 * state.loop.ambient;
     };
     const auto isSettled = [&] { return !asksForCoarser(problem) && (isReached() || isExhausted()); };
+    if (run.wantsRelight() && state.loop.ambient <= 0.0) {
+        relight();
+    }
     const bool isEmpty = problem.hierarchy.patches().empty() || state.loop.ambient <= 0.0;
     Limit limit = Limit::none;
-    const bool isBetweenLevels = state.loop.stage == Stage::tighten;
+    const bool isBetweenLevels = state.loop.stage == Stage::tighten && !run.wantsRelight();
     for (bool isDone = isEmpty || (isBetweenLevels && !statistics.history.empty() && isSettled()); !isDone;) {
+        if (run.wantsRelight()) {
+            relight();
+        }
+        if (state.loop.stage == Stage::follow) {
+            run.report("relighting");
+            run.hurry();
+            run.sweep(kFinalSweeps, kFinalResidual);
+            if (run.wantsRelight()) {
+                continue;
+            }
+            run.hurry();
+            run.publish(false);
+            finishFollowing();
+            if (run.isCut()) {
+                break;
+            }
+        }
         if (state.loop.stage == Stage::tighten) {
             tighten();
         }
@@ -221,7 +277,13 @@ Outcome Solver::solve(const Callbacks& callbacks) {
             state.loop.stage = Stage::sweep;
             state.loop.sweeps = 0;
         }
+        if (run.wantsRelight() && !run.isCut()) {
+            continue;
+        }
         run.sweep(kSweepsPerLevel, 0.05 * problem.options.error);
+        if (run.wantsRelight() && !run.isCut()) {
+            continue;
+        }
         state.loop.stage = Stage::tighten;
         run.audit(kAuditRays);
         statistics.estimatedError = estimateError();
@@ -233,7 +295,8 @@ Outcome Solver::solve(const Callbacks& callbacks) {
             run.finishLevel();
         }
         run.publish(false);
-        isDone = run.isStopped() || limit != Limit::none || isSettled();
+        run.isStopped();
+        isDone = run.isCut() || (!run.wantsRelight() && (limit != Limit::none || isSettled()));
     }
     if (problem.options.rowScaling) {
         problem.rowScale = computeRowScaling(problem);
