@@ -178,8 +178,8 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
         scene::regionMaterial(*scene_, textures_, object, at.patch, region);
     Light& light = light_[index(id)];
     light.reflectance = material.reflectance;
-    const bool isEmitter = material.emission != Rgb(0.0f) &&
-                           (!at.back || scene_->materials[object.material].doubleSided);
+    const bool isEmitter =
+        material.emission != Rgb(0.0f) && (!at.back || scene_->materials[object.material].doubleSided);
     light.emission = isEmitter ? material.emission * lighting_.ofMaterial(object.material) : Rgb(0.0f);
     light.radiosity = light.emission + light.reflectance * light.irradiance;
     if (mayHide_[index(id)] != 0) {

@@ -171,8 +171,8 @@ class Hierarchy {
     std::vector<NodeId> prune(const std::vector<std::uint8_t>& isNeeded);
     /// Means and deviations of the clusters' light, from their patches.
     void pullClusters();
-    /// Turns the lights: emission of all nodes, and their radiosity as far as it is emission. What they reflect
-    /// is that of before until it is gathered anew.
+    /// Turns the lights: emission of all nodes, and their radiosity as far as it is emission. What they
+    /// reflect is that of before until it is gathered anew.
     void relight(const scene::Lighting& lighting, const base::Executor& executor);
     /// The lights as they are turned; as the scene says where they never were.
     const scene::Lighting& lighting() const { return lighting_; }

@@ -9,8 +9,9 @@ void Hierarchy::relight(const scene::Lighting& lighting, const base::Executor& e
     for (const NodeId id : sources_) {
         Light& source = light(id);
         const bool isSky = kind(id) == NodeKind::sky;
-        source.emission = isSky ? scene_->sky * lighting_.sky
-                                : scene_->lights[lightIndex(id)].intensity * lighting_.ofLight(lightIndex(id));
+        source.emission = isSky
+                              ? scene_->sky * lighting_.sky
+                              : scene_->lights[lightIndex(id)].intensity * lighting_.ofLight(lightIndex(id));
         source.radiosity = source.emission;
     }
     executor.forRange(nodeCount(), 4096, [&](std::size_t begin, std::size_t end) {

@@ -31,8 +31,9 @@ struct LoopState {
     std::optional<std::uint64_t> sceneHash;  ///< once it was asked for
 };
 
-/// The state at a Moment. The lights are as the solution follows them. Nodes come with their names and the light that is not given by the scene, links
-/// with every field, in their orders; units are those of the structures.
+/// The state at a Moment. The lights are as the solution follows them. Nodes come with their names and the
+/// light that is not given by the scene, links with every field, in their orders; units are those of the
+/// structures.
 base::NamedArrays saveState(const Problem& problem, LoopState& loop);
 
 /// Puts a state into a problem that was just made of the same scene with the same seed and builders, and
@@ -41,8 +42,8 @@ base::NamedArrays saveState(const Problem& problem, LoopState& loop);
 void restoreState(Problem& problem, LoopState& loop, const base::NamedArrays& arrays,
                   const std::string& file);
 
-/// The options that a state was solved with, lights included; those that the table of options does not know, and the limits
-/// of time and memory, come from `others`. Throws base::FileError.
+/// The options that a state was solved with, lights included; those that the table of options does not know,
+/// and the limits of time and memory, come from `others`. Throws base::FileError.
 Options storedOptions(const base::NamedArrays& arrays, const Options& others, const std::string& file);
 
 }  // namespace fluxwalk::solve

@@ -153,6 +153,7 @@ void Solver::start() {
     State& state = *state_;
     Problem& problem = state.problem;
     state.loop.isStarted = true;
+    problem.links.index(problem.hierarchy.nodeCount());
     problem.hierarchy.relight(problem.options.lighting, problem.executor);
     state.loop.ambient = estimateAmbient(problem);
     seedRadiosity(problem, state.loop.ambient);
@@ -198,11 +199,13 @@ void Solver::relight() {
         // What was restored in the midst of refinement stands as it is.
         refineLinks(problem, statistics.threshold, state.budget(), [] { return true; });
     }
+    const double before = estimateAmbient(problem);
     problem.hierarchy.relight(problem.options.lighting, problem.executor);
-    if (const double ambient = estimateAmbient(problem); ambient > 0.0) {
-        const double ratio = ambient / state.loop.ambient;
+    if (const double now = estimateAmbient(problem); now > 0.0) {
+        // While all is dark, the last light stays the measure.
+        const double ratio = now / (before > 0.0 ? before : state.loop.ambient);
         statistics.threshold = std::max(statistics.threshold * ratio, problem.options.threshold);
-        state.loop.ambient = ambient;
+        state.loop.ambient *= ratio;
     }
     problem.rowScale.clear();
     statistics.estimatedError = -1.0;
@@ -210,7 +213,8 @@ void Solver::relight() {
     state.loop.sweeps = 0;
 }
 
-// The next level refines what the new light asks for to the threshold there is, and is compared with this one.
+// The next level refines what the new light asks for to the threshold there is, and is compared with this
+// one.
 void Solver::finishFollowing() {
     State& state = *state_;
     const StageTimer timer(state.problem.statistics.times.audit);
