@@ -1,6 +1,7 @@
 #include "core/scene/lighting.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fluxwalk::scene {
 
@@ -98,15 +99,19 @@ void setFactor(Lighting& lighting, const LightSource& source, const Rgb& factor)
     lighting.sky = factor;
 }
 
-Scene relightScene(Scene scene, const Lighting& lighting) {
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        scene.materials[i].emission *= lighting.ofMaterial(i);
+std::shared_ptr<const Scene> relightScene(std::shared_ptr<const Scene> scene, const Lighting& lighting) {
+    if (lighting.isNeutral()) {
+        return scene;
     }
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        scene.lights[i].intensity *= lighting.ofLight(i);
+    Scene lit = *scene;
+    for (std::size_t i = 0; i < lit.materials.size(); ++i) {
+        lit.materials[i].emission *= lighting.ofMaterial(i);
     }
-    scene.sky *= lighting.sky;
-    return scene;
+    for (std::size_t i = 0; i < lit.lights.size(); ++i) {
+        lit.lights[i].intensity *= lighting.ofLight(i);
+    }
+    lit.sky *= lighting.sky;
+    return std::make_shared<const Scene>(std::move(lit));
 }
 
 }  // namespace fluxwalk::scene

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ std::vector<LightSource> listLightSources(const Scene& scene);
 Rgb factorOf(const Lighting& lighting, const LightSource& source);
 void setFactor(Lighting& lighting, const LightSource& source, const Rgb& factor);
 
-/// The scene as these lights make it.
-Scene relightScene(Scene scene, const Lighting& lighting);
+/// The scene as these lights make it: the same one where they are neutral.
+std::shared_ptr<const Scene> relightScene(std::shared_ptr<const Scene> scene, const Lighting& lighting);
 
 }  // namespace fluxwalk::scene

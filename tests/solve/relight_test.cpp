@@ -146,17 +146,25 @@ TEST(Relight, followsAtOnceOverTheLinksThatStand) {
 }
 
 TEST(Relight, convergesToPlainSweepsOfTheTurnedLamp) {
-    // Constant ends are those of the solver where all ends are patches: a coarse solution of few links.
-    const auto box = std::make_shared<const scene::Scene>(*scene::buildScene("furnace-planar"));
-    Options options = withError(0.5);
-    options.threshold = 1e6;
-    Solver solver(box, options, 2);
-    solver.solve({});
+    Options options;
+    options.clusterLinks = solve::ClusterLinks::off;  // the plain sweeps know elements only
+    const auto problem = test::makeProblem(*scene::buildScene("cornell-box-unit"), options);
+    test::refine(*problem, 1e-4);
+    test::converge(*problem, 1e-3);
+    test::refine(*problem, 5e-6);
+    for (hierarchy::Link& link : problem->links.links) {
+        link.gradientA = link.gradientB = {};  // constant ends, as theirs are
+    }
+    test::converge(*problem);
+    const std::vector<double> before = test::PlainSweeps(*problem).radiosities();
     Lighting lighting;
-    lighting.materials.assign(box->materials.size(), Rgb(0.3f));
-    follow(solver, lighting);
-    const test::PlainSweeps plain(solver.problem());
-    EXPECT_LT(plain.errorOf(plain.radiosities(), plain.solve()), 2e-6);
+    lighting.materials.assign(problem->scene->materials.size(), Rgb(0.3f));
+    problem->hierarchy.relight(lighting, problem->executor);
+    test::converge(*problem);
+    const test::PlainSweeps plain(*problem);
+    EXPECT_GT(plain.radiosities().size(), 200u);
+    EXPECT_GT(plain.errorOf(before, plain.solve()), 0.5);
+    EXPECT_LT(plain.errorOf(plain.radiosities(), plain.solve()), 1e-6);
 }
 
 TEST(Relight, endsAsAFreshSolveWithThoseLights) {
@@ -172,7 +180,7 @@ TEST(Relight, endsAsAFreshSolveWithThoseLights) {
     ASSERT_EQ(fresh.solve({}), Outcome::reachedError);
     EXPECT_LT(solve::relativeRmsOffLamps(gathered(relit), gathered(fresh)), kError);
     // And as a scene that was made so.
-    Solver made(std::make_shared<const scene::Scene>(scene::relightScene(*box, turned(*box))),
+    Solver made(scene::relightScene(box, turned(*box)),
                 withError(kError), 2);
     ASSERT_EQ(made.solve({}), Outcome::reachedError);
     EXPECT_LT(solve::relativeRmsOffLamps(gathered(relit), gathered(made)), kError);
@@ -376,7 +384,7 @@ TEST(Relight, sensorsSeeTheTurnedLights) {
     EXPECT_GT(before.g, 0.0f);
     EXPECT_NEAR(after.r, 0.5f * before.r, 1e-4f * before.r);
     EXPECT_NEAR(after.g, 2.0f * before.g, 1e-4f * before.g);
-    EXPECT_EQ(after.b, 0.0f);
+    EXPECT_LT(after.b, 1e-5f * before.b);
 }
 
 }  // namespace

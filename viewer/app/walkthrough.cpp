@@ -137,7 +137,7 @@ void Walkthrough::takeSnapshot() {
 }
 
 void Walkthrough::show(std::shared_ptr<const solve::Snapshot> snapshot) {
-    renderer_.setMeshes(snapshot->meshes);
+    renderer_.setMeshes(snapshot->meshes, snapshot->lighting);
     automaticExposure_ = renderer_.automaticExposure();
     shown_ = std::move(snapshot);
     needsDrawing_ = true;
