@@ -92,7 +92,10 @@ void addColors(base::NamedArrays& arrays, std::string name, const std::vector<Rg
     arrays.arrays.push_back({std::move(name), std::move(values), 3});
 }
 
-void saveLighting(base::NamedArrays& arrays, const scene::Lighting& lighting) {
+// Every material and light of the scene, so that a list of another length is none of this scene.
+void saveLighting(base::NamedArrays& arrays, const scene::Scene& scene, scene::Lighting lighting) {
+    lighting.materials.resize(scene.materials.size(), Rgb(1.0f));
+    lighting.lights.resize(scene.lights.size(), Rgb(1.0f));
     addColors(arrays, "lighting/materials", lighting.materials);
     addColors(arrays, "lighting/lights", lighting.lights);
     addColors(arrays, "lighting/sky", {lighting.sky});
@@ -190,6 +193,12 @@ void restoreStage(LoopState& loop, const base::ArrayReader& reader) {
     loop.stage = static_cast<Stage>(stage);
     loop.sweeps = static_cast<int>(sweeps);
     loop.isCoarsening = reader.value<std::uint8_t>("level/is-coarsening") != 0;
+    const auto turn = reader.value<std::uint8_t>("level/turn");
+    if (turn > static_cast<std::uint8_t>(Turn::anew)) {
+        reader.fail("level/turn", "is none");
+    }
+    loop.asked = {static_cast<Turn>(turn),
+                  finite(reader, "level/turn-threshold", reader.value<double>("level/turn-threshold"))};
 }
 
 void checkKind(const base::NamedArrays& arrays, const base::ArrayReader& reader) {
@@ -231,12 +240,14 @@ base::NamedArrays saveState(const Problem& problem, LoopState& loop) {
     arrays.version = kVersion;
     addValue(arrays, "scene/hash", sceneHash(problem, loop));
     saveOptions(arrays, problem.options);
-    saveLighting(arrays, problem.hierarchy.lighting());
+    saveLighting(arrays, *problem.scene, problem.hierarchy.lighting());
     saveStatistics(arrays, problem.statistics);
     addValue(arrays, "level/ambient", loop.ambient, "lux");
     addValue(arrays, "level/has-changed", static_cast<std::uint8_t>(loop.hasChanged ? 1 : 0));
     addValue(arrays, "level/stage", static_cast<std::uint8_t>(loop.stage));
     addValue(arrays, "level/sweeps", static_cast<std::uint32_t>(loop.sweeps));
+    addValue(arrays, "level/turn", static_cast<std::uint8_t>(loop.asked.turn));
+    addValue(arrays, "level/turn-threshold", loop.asked.threshold, "lux");
     addValue(arrays, "level/is-coarsening", static_cast<std::uint8_t>(loop.isCoarsening ? 1 : 0));
     std::vector<float> gathered;
     for (const Rgb& e : loop.gathered) {
@@ -258,8 +269,8 @@ void restoreState(Problem& problem, LoopState& loop, const base::NamedArrays& ar
     }
     const Options stored = storedOptions(arrays, problem.options, file);
     checkFixed(problem, stored, reader);
-    if (stored.lighting.materials.size() > problem.scene->materials.size() ||
-        stored.lighting.lights.size() > problem.scene->lights.size()) {
+    if (stored.lighting.materials.size() != problem.scene->materials.size() ||
+        stored.lighting.lights.size() != problem.scene->lights.size()) {
         reader.fail("lighting", "does not fit this scene");
     }
     problem.hierarchy.relight(stored.lighting, problem.executor);

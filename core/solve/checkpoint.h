@@ -4,6 +4,7 @@
 
 #include "core/base/named_arrays.h"
 #include "core/solve/state.h"
+#include "core/solve/turn.h"
 
 /// A solve between two waves, sweeps or levels as named arrays, and back. All that decides what comes next is
 /// in them, so that a solve that goes on from them gets the same bits as one that was never interrupted.
@@ -25,6 +26,7 @@ struct LoopState {
     bool isStarted = false;
     double ambient = 0.0;       ///< lux, first guess for what is not lit yet
     std::vector<Rgb> gathered;  ///< lux at the probes, after the last level
+    Asked asked;                ///< by new options, of the next level
     bool hasChanged = true;     ///< the last level changed links
     /// Of statistics.times.total, what was spent before the program started: no part of a time limit.
     double secondsBefore = 0.0;

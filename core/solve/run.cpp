@@ -41,6 +41,7 @@ void Run::takeNewOptions() {
     }
     const Options built = problem_.options;
     loop_.hasChanged = true;
+    loop_.asked = mergeAsked(loop_.asked, compareOptions(built, *changed, problem_.statistics.history));
     problem_.options = *changed;
     problem_.options.seed = built.seed;
     problem_.options.clusters = built.clusters;
@@ -49,7 +50,7 @@ void Run::takeNewOptions() {
     if (problem_.hierarchy.patches().size() > kMaxPairedPatches) {
         problem_.options.clusterLinks = ClusterLinks::on;
     }
-    isTurned_ = isTurned_ || asksForCoarser(problem_);
+    isTurned_ = isTurned_ || asksForCoarser(problem_) || loop_.asked.turn >= Turn::coarser;
 }
 
 void Run::tell(Moment moment) {

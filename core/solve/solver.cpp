@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -99,8 +100,14 @@ Solver::Solver(std::shared_ptr<const scene::Scene> scene, const Options& options
 Solver::~Solver() = default;
 
 void Solver::setOptions(const Options& options) {
-    state_->problem.options = options;
-    state_->loop.hasChanged = true;
+    LoopState& loop = state_->loop;
+    Problem& problem = state_->problem;
+    if (loop.isStarted) {
+        loop.asked =
+            mergeAsked(loop.asked, compareOptions(problem.options, options, problem.statistics.history));
+    }
+    problem.options = options;
+    loop.hasChanged = true;
 }
 const Options& Solver::options() const {
     return state_->problem.options;
@@ -165,22 +172,29 @@ void Solver::start() {
     }
 }
 
-// The next threshold: tighter, or, where a limit or a stop left links that it asks to refine, the same again.
+// The next threshold: tighter, or what new options ask for, or, where a limit or a stop left links that it
+// asks to refine, the same again.
 void Solver::tighten() {
     State& state = *state_;
     Problem& problem = state.problem;
     Statistics& statistics = problem.statistics;
     problem.rowScale.clear();
     state.loop.stage = Stage::refine;
+    const Asked asked = std::exchange(state.loop.asked, {});
     const bool isOver = !state.budget().holds(problem.hierarchy.nodeCount(), problem.linkCount());
-    state.loop.isCoarsening = asksForCoarser(problem) || (isOver && !problem.links.links.empty());
+    const bool hasLinks = !problem.links.links.empty();
+    state.loop.isCoarsening = hasLinks && (asksForCoarser(problem) || isOver || asked.turn >= Turn::coarser);
     if (state.loop.isCoarsening) {
-        statistics.threshold = std::max(statistics.threshold, problem.options.threshold);
+        const double first = firstThreshold(problem.options.oracle, state.loop.ambient);
+        statistics.threshold =
+            asked.turn == Turn::anew
+                ? std::max(first, problem.options.threshold)
+                : std::max({statistics.threshold, asked.threshold, problem.options.threshold});
         dropLinks(problem);
-        if (isOver) {
+        if (isOver || hasTooSmallElements(problem)) {
             pruneElements(problem);
         }
-    } else if (statistics.largestError <= statistics.threshold) {
+    } else if (statistics.largestError <= statistics.threshold && asked.turn != Turn::finer) {
         statistics.threshold = std::max(statistics.threshold / kTighten, problem.options.threshold);
     }
 }
@@ -242,7 +256,10 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         return !state.loop.hasChanged && statistics.history.size() > 3 && problem.options.threshold <= 0.0 &&
                statistics.threshold < 1e-9 * state.loop.ambient;
     };
-    const auto isSettled = [&] { return !asksForCoarser(problem) && (isReached() || isExhausted()); };
+    const auto isSettled = [&] {
+        return state.loop.asked.turn == Turn::none && !asksForCoarser(problem) &&
+               (isReached() || isExhausted());
+    };
     if (run.wantsRelight() && state.loop.ambient <= 0.0) {
         relight();
     }
@@ -300,11 +317,10 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         }
         run.publish(false);
         run.isStopped();
-        isDone = run.isCut() || (!run.wantsRelight() && (limit != Limit::none || isSettled()));
+        const bool isAsked = run.wantsRelight() || state.loop.asked.turn != Turn::none;
+        isDone = run.isCut() || (!isAsked && (limit != Limit::none || isSettled()));
     }
-    if (problem.options.rowScaling) {
-        problem.rowScale = computeRowScaling(problem);
-    }
+    problem.rowScale = problem.options.rowScaling ? computeRowScaling(problem) : std::vector<float>{};
     run.report("converging");
     run.beginLastSweeps();
     run.sweep(kFinalSweeps, kFinalResidual);

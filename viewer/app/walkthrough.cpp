@@ -66,6 +66,7 @@ class Walkthrough {
     ui::Walker walker_;
     ui::ViewSettings settings_;
     solve::Options options_;
+    std::vector<scene::LightSource> lights_;
     bool isPaused_ = false;
     bool hasChosenMovement_ = false;
     std::shared_ptr<const solve::Snapshot> shown_;
@@ -98,10 +99,12 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit)
       renderer_(window.functions(), exhibit.scene),
       mouse_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
-      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection},
+      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection, true, true, {}},
       options_(exhibit.options.value_or(solve::Options{})),
+      lights_(scene::listLightSources(*exhibit.scene)),
       now_(glfwGetTime()),
       floor_(exhibit.solid) {
+    settings_.lights = ui::controlsOf(lights_, options_.lighting);
     if (exhibit.options) {
         session_.emplace(session::solveWith(exhibit.solver), *exhibit.options, [] { glfwPostEmptyEvent(); });
     } else {
@@ -296,6 +299,7 @@ void Walkthrough::drawInterface() {
     info.framesPerSecond = framesPerSecond_;
     info.renderer = window_.renderer();
     info.shownRange = renderer_.rangeOf(settings_.draw);
+    info.lights = lights_;
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
     inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse);
