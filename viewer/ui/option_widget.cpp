@@ -21,6 +21,11 @@ struct Ends {
 Ends endsOf(const solve::OptionInfo& option) {
     constexpr double kLeastPart = 1e-9;
     constexpr double kMostValue = 1e4;
+    // Finer than the finest error takes hours, coarser than the coarsest nothing.
+    constexpr Ends kFractions{1e-3, 0.5};
+    if (option.kind == solve::OptionKind::fraction) {
+        return {std::max(option.minimum, kFractions.least), std::min(option.maximum, kFractions.most)};
+    }
     const double most = std::min(option.maximum, kMostValue);
     return {option.minimum > 0.0 ? option.minimum : std::max(kLeastPart, 1e-8 * most), most};
 }
