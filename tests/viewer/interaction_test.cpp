@@ -149,7 +149,10 @@ class Window : public ::testing::Test {
         return picture;
     }
     bool waitFor(const std::function<bool(const Picture&)>& condition) const {
-        for (int i = 0; i < 300 && program_->isRunning(); ++i) {
+        return waitForSome(condition, 300);
+    }
+    bool waitForSome(const std::function<bool(const Picture&)>& condition, int looks) const {
+        for (int i = 0; i < looks && program_->isRunning(); ++i) {
             if (condition(look())) {
                 return true;
             }
@@ -245,6 +248,33 @@ TEST_F(Window, IReadsThePointUnderTheCursor) {
     press("i");
     EXPECT_TRUE(
         waitFor([&](const Picture& p) { return beside(p, 600, 500) < 0.3 && beside(p, 700, 300) < 0.3; }));
+}
+
+TEST_F(Window, LampsAreSwitchedAndDimmedInThePanel) {
+    const auto isLit = [](const Picture& p) { return p.at(700, 300).r > 60; };
+    const auto isDark = [](const Picture& p) { return p.at(700, 300).r < 8; };
+    const auto click = [](int x, int y) {
+        point(x, y);
+        std::this_thread::sleep_for(150ms);
+        act("mousedown 1");
+        std::this_thread::sleep_for(200ms);
+        act("mouseup 1");
+        std::this_thread::sleep_for(400ms);
+    };
+    // The lamp's tick is the only one in its column; from below, so that no heading above it is folded.
+    int row = 0;
+    for (int y = 470; y >= 330 && row == 0; y -= 8) {
+        click(39, y);
+        row = isDark(look()) || waitForSome(isDark, 4) ? y : 0;
+    }
+    ASSERT_GT(row, 0);
+    click(39, row);
+    EXPECT_TRUE(waitFor(isLit));
+    // The left end of its slider is 0 %, the middle is not.
+    click(160, row);
+    EXPECT_TRUE(waitFor(isDark));
+    click(250, row);
+    EXPECT_TRUE(waitFor(isLit));
 }
 
 }  // namespace
