@@ -97,7 +97,7 @@ void relightWhileSolving(benchmark::State& state) {
         std::this_thread::sleep_for(137ms);
     }
 }
-BENCHMARK(relightWhileSolving)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(40);
+BENCHMARK(relightWhileSolving)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(20);
 
 void displayAngleAtRest(benchmark::State& state) {
     SolverSession& session = restingGallery();
@@ -128,7 +128,7 @@ void thresholdAtRest(benchmark::State& state) {
         session.wait();
     }
 }
-BENCHMARK(thresholdAtRest)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(6);
+BENCHMARK(thresholdAtRest)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(2);
 
 }  // namespace
 }  // namespace fluxwalk::session
