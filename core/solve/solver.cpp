@@ -220,6 +220,9 @@ void Solver::relight() {
         const double ratio = now / (before > 0.0 ? before : state.loop.ambient);
         statistics.threshold = std::max(statistics.threshold * ratio, problem.options.threshold);
         state.loop.ambient *= ratio;
+    } else {
+        // Sweeps would take what is left down by a constant factor each, and never to an end.
+        darken(problem);
     }
     problem.rowScale.clear();
     statistics.estimatedError = -1.0;

@@ -244,6 +244,8 @@ TEST(Relight, allOffIsDarkAndLightComesBack) {
     first.setOptions(with(withError(0.1), off));
     EXPECT_EQ(first.solve({}), Outcome::reachedError);
     EXPECT_EQ(meanOf(first), 0.0);
+    EXPECT_EQ(first.statistics().estimatedError, 0.0);
+    EXPECT_EQ(first.statistics().residual, 0.0);
     first.setOptions(withError(0.1));
     EXPECT_EQ(first.solve({}), Outcome::reachedError);
     EXPECT_NEAR(meanOf(first), mean, 0.05 * mean);
