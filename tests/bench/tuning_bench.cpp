@@ -3,10 +3,13 @@
 #include <thread>
 
 #include <benchmark/benchmark.h>
+#include <imgui.h>
 
 #include "core/scene/builders.h"
 #include "core/scene/lighting.h"
 #include "viewer/session/solver_session.h"
+#include "viewer/ui/imgui_context.h"
+#include "viewer/ui/panel.h"
 
 // Seconds from a request to the first snapshot that shows what it asked for, on the gallery, through the
 // session that the window talks to: at rest, and while the solver refines. A snapshot is what the window
@@ -70,6 +73,30 @@ Options dimmed(Options options, int step) {
     scene::setFactor(options.lighting, source, base::Rgb(step % 2 == 0 ? 0.2f : 3.0f));
     return options;
 }
+
+/// What the window's thread does for a frame beside drawing: it asks the session and lays out the panel.
+void panelFrame(benchmark::State& state) {
+    SolverSession& session = restingGallery();
+    const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene("gallery"));
+    const ui::ImguiContext imgui(1.0f);
+    ImGui::GetIO().DisplaySize = ImVec2(1280.0f, 720.0f);
+    ui::Walker walker(scene->cameras.front(), scene->bounds());
+    ui::ViewSettings settings;
+    ui::PanelInfo info;
+    info.scene = scene.get();
+    info.lights = scene::listLightSources(*scene);
+    settings.lights = ui::controlsOf(info.lights, {});
+    Options options = session.options();
+    for (auto _ : state) {
+        const auto snapshot = session.latest();
+        info.snapshot = snapshot.get();
+        info.session = session.status();
+        ImGui::NewFrame();
+        ui::drawPanel(info, settings, options, walker, 1.0f);
+        ImGui::Render();
+    }
+}
+BENCHMARK(panelFrame)->Unit(benchmark::kMillisecond);
 
 void relightAtRest(benchmark::State& state) {
     SolverSession& session = restingGallery();
