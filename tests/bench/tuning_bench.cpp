@@ -80,6 +80,7 @@ void panelFrame(benchmark::State& state) {
     const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene("gallery"));
     const ui::ImguiContext imgui(1.0f);
     ImGui::GetIO().DisplaySize = ImVec2(1280.0f, 720.0f);
+    ImGui::GetIO().Fonts->Build();
     ui::Walker walker(scene->cameras.front(), scene->bounds());
     ui::ViewSettings settings;
     ui::PanelInfo info;
