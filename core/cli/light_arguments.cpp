@@ -62,9 +62,9 @@ scene::Lighting turnLights(const std::vector<TurnedLight>& lights, const scene::
             }
         }
         if (!isFound) {
-            throw base::UsageError(fmt::format("{}: nothing that shines is called '{}' here{}; there is: {}",
-                                               kOption, light.name, didYouMean(light.name, names),
-                                               fmt::join(names, ", ")));
+            throw base::UsageError(fmt::format("{}: nothing that shines is called '{}' here; there is: {}{}",
+                                               kOption, light.name, fmt::join(names, ", "),
+                                               didYouMean(light.name, names)));
         }
     }
     return lighting;
