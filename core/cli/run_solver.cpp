@@ -24,10 +24,13 @@ Solved runSolver(const std::string& command, const SceneArguments& sceneArgument
         }
     }
     solved.report.command = command;
-    solved.report.scene = scene::describeScene(*solved.scene, scene::TextureSet(*solved.scene));
+    solve::Options options = checkpointing.options();
+    options.lighting = turnLights(solverArguments.lights, *solved.scene, options.lighting);
+    const std::shared_ptr<const scene::Scene> lit = scene::relightScene(solved.scene, options.lighting);
+    solved.report.scene = scene::describeScene(*lit, scene::TextureSet(*lit));
     solved.report.arguments = solverArguments;
-    solved.report.arguments.options = checkpointing.options();
-    solved.solver = checkpointing.makeSolver(solved.scene, checkpointing.options(), solverArguments.threads);
+    solved.report.arguments.options = options;
+    solved.solver = checkpointing.makeSolver(solved.scene, options, solverArguments.threads);
 
     const Interrupt interrupt;
     Progress progress(stderr, chooseStyle(stderr, output.quiet));

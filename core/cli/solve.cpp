@@ -33,9 +33,9 @@ ExitCode runSolve(const SolveArguments& arguments) {
     requireOutputs(arguments);
     Solved solved = runSolver("solve", arguments.scene, arguments.solver, arguments.output);
     const scene::LitMeshes meshes = solved.solver->litMeshes();
-    writeOutput([&] {
-        io::writeLitGltf(arguments.lit, *solved.scene, meshes, {io::chooseExposure(*solved.scene, meshes)});
-    });
+    const std::shared_ptr<const scene::Scene> lit =
+        scene::relightScene(solved.scene, solved.solver->options().lighting);
+    writeOutput([&] { io::writeLitGltf(arguments.lit, *lit, meshes, {io::chooseExposure(*lit, meshes)}); });
     completeReport(solved, {arguments.lit.string()});
     deliver(solved.report, arguments.output);
     return solved.exitCode();

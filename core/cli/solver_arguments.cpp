@@ -101,6 +101,20 @@ void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
            "Threads to work on; the result does not depend on it. Default 0: all that the machine has.")
         ->type_name("N")
         ->group("Solver");
+    app.add_option_function<std::vector<std::string>>(
+           "--light",
+           [&arguments](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts) {
+                   arguments.lights.push_back(parseTurnedLight(text));
+               }
+           },
+           "Switch, dim or recolour what shines: a material or light by its name, or sky. A factor on what "
+           "the "
+           "scene says, or three for red, green and blue: lamp=0, lamp=0.4, lamp=1,0.7,0.4. May be repeated. "
+           "With --resume the light follows over the links that stand.")
+        ->type_name("NAME=FACTOR")
+        ->take_all()
+        ->group("Solver");
     addCheckpointOptions(app, arguments);
 }
 

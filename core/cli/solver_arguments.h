@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/cli/light_arguments.h"
 #include "core/solve/options_table.h"
 
 namespace CLI {
@@ -17,6 +18,8 @@ struct SolverArguments {
     solve::Options options;
     /// What was typed, in order: it goes before what a resumed checkpoint says.
     std::vector<std::pair<const solve::OptionInfo*, double>> typed;
+    /// Lights as typed, in order; over those of a resumed checkpoint too.
+    std::vector<TurnedLight> lights;
     std::filesystem::path checkpoint;  ///< the state of the solve is kept here, empty for nowhere
     double checkpointInterval = 60.0;  ///< seconds between two of them within a level
     std::filesystem::path resume;      ///< the solve goes on from this checkpoint, empty for a new one

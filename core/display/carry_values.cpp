@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fluxwalk::display {
 
@@ -92,34 +93,45 @@ class CellReader {
 
 }  // namespace
 
-MeshValues carryValues(const ValuedMesh& coarse, std::span<const Cell> cells, const MeshVertices& fine) {
+CarryPlan planCarrying(std::span<const Cell> cells, const MeshVertices& fine) {
+    CarryPlan plan;
+    plan.samples.assign(fine.pointOfValue.size() + cells.size(), {});
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::array<GridPoint, 4> corners = cornersOf(cells[i]);
+        const auto set = [&](std::size_t sample, const GridPoint& at) {
+            if (plan.samples[sample].source == kNone) {
+                plan.samples[sample] = {cells[i].source, at};
+            }
+        };
+        for (unsigned k = 0; k < cells[i].cornerCount; ++k) {
+            set(fine.vertices[fine.cells[i].corners[k]].value, corners[k]);
+            if (fine.cells[i].middles[k] != kNone) {
+                set(fine.vertices[fine.cells[i].middles[k]].value,
+                    middleOf(corners[k], corners[(k + 1) % cells[i].cornerCount]));
+            }
+        }
+        if (cells[i].cornerCount == 4) {
+            set(fine.pointOfValue.size() + i, middleOf(corners[0], corners[2]));
+        }
+    }
+    return plan;
+}
+
+MeshValues carryValues(const ValuedMesh& coarse, const CarryPlan& plan, std::size_t valueCount) {
     MeshValues out;
-    out.values.assign(fine.pointOfValue.size(), Rgb(0.0f));
-    out.centers.assign(cells.size(), Rgb(0.0f));
-    std::vector<bool> isSet(fine.pointOfValue.size(), false);
-    std::size_t i = 0;
-    while (i < cells.size()) {
-        const std::uint32_t source = cells[i].source;
-        const CellReader reader(coarse, source);
-        for (; i < cells.size() && cells[i].source == source; ++i) {
-            const std::array<GridPoint, 4> corners = cornersOf(cells[i]);
-            const auto set = [&](std::uint32_t vertex, const GridPoint& at) {
-                const std::uint32_t value = fine.vertices[vertex].value;
-                if (!isSet[value]) {
-                    isSet[value] = true;
-                    out.values[value] = reader.at(at);
-                }
-            };
-            for (unsigned k = 0; k < cells[i].cornerCount; ++k) {
-                set(fine.cells[i].corners[k], corners[k]);
-                if (fine.cells[i].middles[k] != kNone) {
-                    set(fine.cells[i].middles[k],
-                        middleOf(corners[k], corners[(k + 1) % cells[i].cornerCount]));
-                }
+    out.values.assign(valueCount, Rgb(0.0f));
+    out.centers.assign(plan.samples.size() - valueCount, Rgb(0.0f));
+    std::optional<CellReader> reader;
+    std::uint32_t readerOf = kNone;
+    for (std::size_t i = 0; i < plan.samples.size(); ++i) {
+        const CarryPlan::Sample& sample = plan.samples[i];
+        if (sample.source != kNone) {
+            Rgb& value = i < valueCount ? out.values[i] : out.centers[i - valueCount];
+            if (!reader || readerOf != sample.source) {
+                reader.emplace(coarse, sample.source);
+                readerOf = sample.source;
             }
-            if (cells[i].cornerCount == 4) {
-                out.centers[i] = reader.at(middleOf(corners[0], corners[2]));
-            }
+            value = reader->at(sample.at);
         }
     }
     return out;

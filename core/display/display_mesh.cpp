@@ -10,6 +10,22 @@
 
 namespace fluxwalk::display {
 
+struct MeshLayout {
+    std::vector<Cell> cells;
+    MeshVertices vertices;
+    /// Of a mesh that was cut further for the eye.
+    CarryPlan plan;
+    std::size_t plannedValues = 0;
+    /// Of each vertex of the mesh: index of its value, cells' middles behind.
+    std::vector<std::uint32_t> valueOf;
+
+    MeshValues values(std::span<const Leaf> leaves) const {
+        MeshValues values = reconstructValues(cells, vertices, leaves);
+        return plan.samples.empty() ? std::move(values)
+                                    : carryValues({cells, vertices, values}, plan, plannedValues);
+    }
+};
+
 namespace {
 
 using surface::kMaxLevel;
@@ -71,22 +87,28 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     }
     PointTable points(leaves.size() + leaves.size() / 4);
     balance(topology, points, cells);
-    MeshVertices vertices = collectVertices(topology, points, cells, options.creaseAngle);
-    MeshValues values = reconstructValues(cells, vertices, leaves);
+    auto layout = std::make_shared<MeshLayout>();
+    layout->vertices = collectVertices(topology, points, cells, options.creaseAngle);
     RefinedCells refined = refineForDisplay(
         topology, cells,
         {options.curvatureAngle, options.rimRise, options.leastAngle, options.mostCellsForShape});
-    if (!refined.cells.empty()) {
-        MeshVertices fine = collectVertices(topology, refined.points, refined.cells, options.creaseAngle);
-        values = carryValues({cells, vertices, values}, refined.cells, fine);
-        vertices = std::move(fine);
-        cells = std::move(refined.cells);
+    layout->cells = std::move(cells);
+    const bool isRefined = !refined.cells.empty();
+    MeshVertices fine;
+    if (isRefined) {
+        fine = collectVertices(topology, refined.points, refined.cells, options.creaseAngle);
+        layout->plan = planCarrying(refined.cells, fine);
+        layout->plannedValues = fine.pointOfValue.size();
     }
+    const MeshVertices& vertices = isRefined ? fine : layout->vertices;
+    const std::vector<Cell>& shown = isRefined ? refined.cells : layout->cells;
     const std::array<bool, 2> texcoords{options.texcoords[0] && topology.hasTexcoords(0),
                                         options.texcoords[1] && topology.hasTexcoords(1)};
     std::vector<std::uint32_t> firstTriangle =
-        triangulate(topology, cells, vertices, values, texcoords, mesh);
-    out.tables.push_back(makeTable(cells, topology.surface().patchCount(), std::move(firstTriangle)));
+        triangulate(topology, shown, vertices, layout->values(leaves), texcoords, mesh, layout->valueOf);
+    layout->valueOf.shrink_to_fit();
+    out.tables.push_back(makeTable(shown, topology.surface().patchCount(), std::move(firstTriangle)));
+    out.layouts.push_back(std::move(layout));
 }
 
 // Meshes stay for long: room that was reserved for the worst case is given back.
@@ -100,22 +122,52 @@ void shrink(scene::LitMesh& mesh) {
     }
 }
 
+/// The leaves of one object's sides in their order.
+class SortedLeaves {
+  public:
+    explicit SortedLeaves(std::span<const Leaf> leaves) : leaves_(leaves) {
+        if (!std::is_sorted(leaves.begin(), leaves.end(), comesBefore)) {
+            sorted_.assign(leaves.begin(), leaves.end());
+            std::sort(sorted_.begin(), sorted_.end(), comesBefore);
+            leaves_ = sorted_;
+        }
+        const auto firstBack =
+            std::partition_point(leaves_.begin(), leaves_.end(), [](const Leaf& leaf) { return !leaf.back; });
+        frontCount_ = static_cast<std::size_t>(firstBack - leaves_.begin());
+    }
+    SortedLeaves(const SortedLeaves&) = delete;
+    SortedLeaves& operator=(const SortedLeaves&) = delete;
+
+    std::span<const Leaf> side(bool back) const {
+        return back ? leaves_.subspan(frontCount_) : leaves_.first(frontCount_);
+    }
+
+  private:
+    std::vector<Leaf> sorted_;
+    std::span<const Leaf> leaves_;
+    std::size_t frontCount_ = 0;
+};
+
 }  // namespace
+
+std::uint64_t DisplayMeshes::layoutBytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& layout : layouts) {
+        const MeshVertices& v = layout->vertices;
+        bytes += layout->cells.size() * (sizeof(Cell) + sizeof(CellVertices) + sizeof(Vec2d)) +
+                 v.vertices.size() * sizeof(Vertex) + v.positions.size() * sizeof(Vec3d) +
+                 (v.heads.size() + v.pointOfValue.size() + layout->valueOf.size()) * sizeof(std::uint32_t) +
+                 layout->plan.samples.size() * sizeof(CarryPlan::Sample);
+    }
+    return bytes;
+}
 
 DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
                                  std::span<const Leaf> leaves, const MeshOptions& options) {
-    std::vector<Leaf> sorted;
-    if (!std::is_sorted(leaves.begin(), leaves.end(), comesBefore)) {
-        sorted.assign(leaves.begin(), leaves.end());
-        std::sort(sorted.begin(), sorted.end(), comesBefore);
-        leaves = sorted;
-    }
-    const auto firstBack =
-        std::partition_point(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return !leaf.back; });
-    const auto frontCount = static_cast<std::size_t>(firstBack - leaves.begin());
+    const SortedLeaves sorted(leaves);
     DisplayMeshes out;
     for (const bool back : {false, true}) {
-        const auto side = back ? leaves.subspan(frontCount) : leaves.first(frontCount);
+        const std::span<const Leaf> side = sorted.side(back);
         if (side.empty()) {
             continue;
         }
@@ -126,6 +178,24 @@ DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t ob
         buildSide(topology, side, options, *mesh, out);
         shrink(*mesh);
         out.meshes.push_back(mesh);
+    }
+    return out;
+}
+
+DisplayMeshes revalueDisplayMeshes(const DisplayMeshes& from, std::span<const Leaf> leaves) {
+    const SortedLeaves sorted(leaves);
+    DisplayMeshes out = from;
+    for (std::size_t i = 0; i < out.meshes.size(); ++i) {
+        const MeshLayout& layout = *out.layouts[i];
+        const MeshValues values = layout.values(sorted.side(out.meshes[i]->back));
+        auto mesh = std::make_shared<scene::LitMesh>(*out.meshes[i]);
+        FLUXWALK_CHECK_EQ(mesh->irradiance.size(), layout.valueOf.size());
+        for (std::size_t v = 0; v < layout.valueOf.size(); ++v) {
+            const std::size_t value = layout.valueOf[v];
+            mesh->irradiance[v] = value < values.values.size() ? values.values[value]
+                                                               : values.centers[value - values.values.size()];
+        }
+        out.meshes[i] = std::move(mesh);
     }
     return out;
 }

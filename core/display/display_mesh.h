@@ -46,10 +46,17 @@ struct CellTable {
     std::vector<std::uint32_t> firstTriangle;  ///< of each cell, then the number of triangles
 };
 
+/// What a mesh's values are made of, apart from the leaves' irradiance.
+struct MeshLayout;
+
 /// The meshes of one object, front before back; a side without leaves has none.
 struct DisplayMeshes {
     scene::LitMeshes meshes;
-    std::vector<CellTable> tables;  ///< parallel to the meshes
+    std::vector<CellTable> tables;  ///< parallel to the meshes, as are the layouts
+    std::vector<std::shared_ptr<const MeshLayout>> layouts;
+
+    /// What the layouts take.
+    std::uint64_t layoutBytes() const;
 };
 
 /// Triangulates the leaves of one object, given in any order; they must tile each patch and side that they
@@ -57,5 +64,9 @@ struct DisplayMeshes {
 /// order. Not parallel; objects may be built at the same time.
 DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
                                  std::span<const Leaf> leaves, const MeshOptions& options);
+
+/// The same meshes for leaves that differ in nothing but their irradiance, to the same bits and in a part of
+/// the time.
+DisplayMeshes revalueDisplayMeshes(const DisplayMeshes& from, std::span<const Leaf> leaves);
 
 }  // namespace fluxwalk::display

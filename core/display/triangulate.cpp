@@ -7,12 +7,14 @@ namespace {
 class Triangulator {
   public:
     Triangulator(const PatchTopology& topology, const MeshVertices& vertices, const MeshValues& values,
-                 const std::array<bool, 2>& texcoords, scene::LitMesh& mesh)
+                 const std::array<bool, 2>& texcoords, scene::LitMesh& mesh,
+                 std::vector<std::uint32_t>& valueOf)
         : surface_(topology.surface()),
           vertices_(vertices),
           values_(values),
           texcoords_(texcoords),
           mesh_(mesh),
+          valueOf_(valueOf),
           emitted_(vertices.vertices.size(), kNone) {}
 
     std::vector<std::uint32_t> run(std::span<const Cell> cells) {
@@ -40,6 +42,7 @@ class Triangulator {
         mesh_.positions.reserve(vertexCount);
         mesh_.normals.reserve(vertexCount);
         mesh_.irradiance.reserve(vertexCount);
+        valueOf_.reserve(vertexCount);
         for (std::size_t set = 0; set < 2; ++set) {
             if (texcoords_[set]) {
                 mesh_.texcoords[set].reserve(vertexCount);
@@ -48,12 +51,13 @@ class Triangulator {
         mesh_.triangles.reserve(12 * cellCount + cellCount);
     }
 
-    std::uint32_t emit(const Vec3d& position, const Vec3& normal, const Rgb& irradiance, std::uint32_t patch,
-                       const Vec2d& uv) {
+    std::uint32_t emit(const Vec3d& position, const Vec3& normal, const Rgb& irradiance, std::size_t value,
+                       std::uint32_t patch, const Vec2d& uv) {
         const auto number = static_cast<std::uint32_t>(mesh_.positions.size());
         mesh_.positions.emplace_back(position);
         mesh_.normals.push_back(mesh_.back ? -normal : normal);
         mesh_.irradiance.push_back(irradiance);
+        valueOf_.push_back(static_cast<std::uint32_t>(value));
         for (unsigned set = 0; set < 2; ++set) {
             if (texcoords_[set]) {
                 mesh_.texcoords[set].emplace_back(surface_.texcoord(patch, uv, set));
@@ -85,7 +89,7 @@ class Triangulator {
             }
         }
         return emitted_[number] = emit(vertices_.positions[vertex.point], vertex.normal,
-                                       values_.values[vertex.value], vertex.patch, vertex.uv);
+                                       values_.values[vertex.value], vertex.value, vertex.patch, vertex.uv);
     }
 
     // At a pole an edge has no length, and what hangs on it no area.
@@ -110,7 +114,8 @@ class Triangulator {
         }
         const Vec2d& uv = vertices_.centers[cell];
         const surface::SurfacePoint at = surface_.evaluate(patch, uv);
-        const std::uint32_t center = emit(at.position, Vec3(at.normal), values_.centers[cell], patch, uv);
+        const std::uint32_t center = emit(at.position, Vec3(at.normal), values_.centers[cell],
+                                          values_.values.size() + cell, patch, uv);
         for (unsigned k = 0; k < count; ++k) {
             addTriangle(center, ring[k], ring[k + 1 == count ? 0 : k + 1]);
         }
@@ -173,6 +178,7 @@ class Triangulator {
     const MeshValues& values_;
     std::array<bool, 2> texcoords_;
     scene::LitMesh& mesh_;
+    std::vector<std::uint32_t>& valueOf_;
     std::vector<std::uint32_t> emitted_;
 };
 
@@ -180,8 +186,9 @@ class Triangulator {
 
 std::vector<std::uint32_t> triangulate(const PatchTopology& topology, std::span<const Cell> cells,
                                        const MeshVertices& vertices, const MeshValues& values,
-                                       const std::array<bool, 2>& texcoords, scene::LitMesh& mesh) {
-    return Triangulator(topology, vertices, values, texcoords, mesh).run(cells);
+                                       const std::array<bool, 2>& texcoords, scene::LitMesh& mesh,
+                                       std::vector<std::uint32_t>& valueOf) {
+    return Triangulator(topology, vertices, values, texcoords, mesh, valueOf).run(cells);
 }
 
 }  // namespace fluxwalk::display

@@ -179,8 +179,9 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
         scene::regionMaterial(*scene_, textures_, object, at.patch, region);
     Light& light = light_[index(id)];
     light.reflectance = material.reflectance;
-    light.emission =
-        at.back && !scene_->materials[object.material].doubleSided ? Rgb(0.0f) : material.emission;
+    const bool isEmitter =
+        material.emission != Rgb(0.0f) && (!at.back || scene_->materials[object.material].doubleSided);
+    light.emission = isEmitter ? material.emission * lighting_.ofMaterial(object.material) : Rgb(0.0f);
     light.radiosity = light.emission + light.reflectance * light.irradiance;
     if (mayHide_[index(id)] != 0) {
         const auto mayEmit = [this](base::ObjectId other) {
@@ -194,7 +195,7 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
             isStrip ? std::max(width, widthOf(shape_[index(parent(id))])) : 2.0 * width;
         const Exposure exposure =
             findExposure(*rays_, reached_, surface, at.patch, at.back, region,
-                         {0.25 * width, 0.25 * widthOfParent}, mayEmit, light.emission != Rgb(0.0f));
+                         {0.25 * width, 0.25 * widthOfParent}, mayEmit, isEmitter);
         shape.exposedCells = exposure.cells;
         shape.exposedPlaces = exposure.places;
         shape.placesOfParent = exposure.placesOfParent;

@@ -11,6 +11,7 @@
 #include "core/hierarchy/patch_table.h"
 #include "core/hierarchy/reach.h"
 #include "core/rays/patch_tree.h"
+#include "core/scene/lighting.h"
 #include "core/scene/texture.h"
 #include "core/surface/region.h"
 
@@ -171,6 +172,11 @@ class Hierarchy {
     std::vector<NodeId> prune(const std::vector<std::uint8_t>& isNeeded);
     /// Means and deviations of the clusters' light, from their patches.
     void pullClusters();
+    /// Turns the lights: emission of all nodes, and their radiosity as far as it is emission. What they
+    /// reflect is that of before until it is gathered anew.
+    void relight(const scene::Lighting& lighting, const base::Executor& executor);
+    /// The lights as they are turned; as the scene says where they never were.
+    const scene::Lighting& lighting() const { return lighting_; }
 
     const ReachedSides& reached() const { return reached_; }
     const scene::Scene& scene() const { return *scene_; }
@@ -184,6 +190,7 @@ class Hierarchy {
   private:
     void resize(std::size_t count);
     void shapeElement(NodeId id, const surface::Region& region);
+    Rgb emissionOf(NodeId id, const surface::Region& region) const;
     void refreshExposure(NodeId id);
     void shapePatches(const base::Executor& executor);
     void shapeClusters();
@@ -195,6 +202,7 @@ class Hierarchy {
     const scene::Scene* scene_;
     const rays::RayScene* rays_;
     scene::TextureSet textures_;
+    scene::Lighting lighting_;
     ReachedSides reached_;
     std::uint64_t seed_;
     std::shared_ptr<const rays::PatchTree> shaft_;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kKind = "fluxwalk checkpoint";
 /// Changes with the arrays and with whatever alters the bits of a solve.
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kMaxHistory = 100'000;
 constexpr std::uint32_t kMostSweeps = 1000;
 
@@ -83,6 +83,50 @@ void saveOptions(base::NamedArrays& arrays, const Options& options) {
     }
 }
 
+void addColors(base::NamedArrays& arrays, std::string name, const std::vector<Rgb>& colors) {
+    std::vector<float> values;
+    values.reserve(3 * colors.size());
+    for (const Rgb& color : colors) {
+        values.insert(values.end(), {color.r, color.g, color.b});
+    }
+    arrays.arrays.push_back({std::move(name), std::move(values), 3});
+}
+
+// Every material and light of the scene, so that a list of another length is none of this scene.
+void saveLighting(base::NamedArrays& arrays, const scene::Scene& scene, scene::Lighting lighting) {
+    lighting.materials.resize(scene.materials.size(), Rgb(1.0f));
+    lighting.lights.resize(scene.lights.size(), Rgb(1.0f));
+    addColors(arrays, "lighting/materials", lighting.materials);
+    addColors(arrays, "lighting/lights", lighting.lights);
+    addColors(arrays, "lighting/sky", {lighting.sky});
+}
+
+std::vector<Rgb> readFactors(const base::ArrayReader& reader, const char* name) {
+    const std::vector<float>& values = reader.values<float>(name, 3);
+    std::vector<Rgb> factors;
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!(values[i + c] >= 0.0f && values[i + c] <= scene::kLargestLightFactor)) {
+                reader.fail(name, "is out of its range");
+            }
+        }
+        factors.emplace_back(values[i], values[i + 1], values[i + 2]);
+    }
+    return factors;
+}
+
+scene::Lighting readLighting(const base::ArrayReader& reader) {
+    scene::Lighting lighting;
+    lighting.materials = readFactors(reader, "lighting/materials");
+    lighting.lights = readFactors(reader, "lighting/lights");
+    const std::vector<Rgb> sky = readFactors(reader, "lighting/sky");
+    if (sky.size() != 1) {
+        reader.fail("lighting/sky", "is no colour");
+    }
+    lighting.sky = sky.front();
+    return lighting;
+}
+
 void saveStatistics(base::NamedArrays& arrays, const Statistics& statistics) {
     for (const auto& [name, member] : kCounters) {
         addValue(arrays, name, statistics.counters.*member);
@@ -143,12 +187,18 @@ void restoreStatistics(Statistics& statistics, const base::ArrayReader& reader) 
 void restoreStage(LoopState& loop, const base::ArrayReader& reader) {
     const auto stage = reader.value<std::uint8_t>("level/stage");
     const auto sweeps = reader.value<std::uint32_t>("level/sweeps");
-    if (stage > static_cast<std::uint8_t>(Stage::sweep) || sweeps > kMostSweeps) {
+    if (stage > static_cast<std::uint8_t>(Stage::follow) || sweeps > kMostSweeps) {
         reader.fail("level", "is no stage of a solve");
     }
     loop.stage = static_cast<Stage>(stage);
     loop.sweeps = static_cast<int>(sweeps);
     loop.isCoarsening = reader.value<std::uint8_t>("level/is-coarsening") != 0;
+    const auto turn = reader.value<std::uint8_t>("level/turn");
+    if (turn > static_cast<std::uint8_t>(Turn::anew)) {
+        reader.fail("level/turn", "is none");
+    }
+    loop.asked = {static_cast<Turn>(turn),
+                  finite(reader, "level/turn-threshold", reader.value<double>("level/turn-threshold"))};
 }
 
 void checkKind(const base::NamedArrays& arrays, const base::ArrayReader& reader) {
@@ -190,11 +240,14 @@ base::NamedArrays saveState(const Problem& problem, LoopState& loop) {
     arrays.version = kVersion;
     addValue(arrays, "scene/hash", sceneHash(problem, loop));
     saveOptions(arrays, problem.options);
+    saveLighting(arrays, *problem.scene, problem.hierarchy.lighting());
     saveStatistics(arrays, problem.statistics);
     addValue(arrays, "level/ambient", loop.ambient, "lux");
     addValue(arrays, "level/has-changed", static_cast<std::uint8_t>(loop.hasChanged ? 1 : 0));
     addValue(arrays, "level/stage", static_cast<std::uint8_t>(loop.stage));
     addValue(arrays, "level/sweeps", static_cast<std::uint32_t>(loop.sweeps));
+    addValue(arrays, "level/turn", static_cast<std::uint8_t>(loop.asked.turn));
+    addValue(arrays, "level/turn-threshold", loop.asked.threshold, "lux");
     addValue(arrays, "level/is-coarsening", static_cast<std::uint8_t>(loop.isCoarsening ? 1 : 0));
     std::vector<float> gathered;
     for (const Rgb& e : loop.gathered) {
@@ -216,6 +269,11 @@ void restoreState(Problem& problem, LoopState& loop, const base::NamedArrays& ar
     }
     const Options stored = storedOptions(arrays, problem.options, file);
     checkFixed(problem, stored, reader);
+    if (stored.lighting.materials.size() != problem.scene->materials.size() ||
+        stored.lighting.lights.size() != problem.scene->lights.size()) {
+        reader.fail("lighting", "does not fit this scene");
+    }
+    problem.hierarchy.relight(stored.lighting, problem.executor);
     restoreNodes(problem, reader);
     restoreStage(loop, reader);
     restoreLinks(problem, reader, loop.stage != Stage::refine);
@@ -261,6 +319,7 @@ Options storedOptions(const base::NamedArrays& arrays, const Options& others, co
             option.set(options, value);
         }
     }
+    options.lighting = readLighting(reader);
     return options;
 }
 

@@ -18,6 +18,19 @@ void dropLinks(Problem& problem) {
     problem.pending.clear();
 }
 
+bool hasTooSmallElements(const Problem& problem) {
+    const hierarchy::Hierarchy& h = problem.hierarchy;
+    const double least = problem.minArea();
+    for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
+        const NodeId id{i};
+        if (h.kind(id) == hierarchy::NodeKind::element && !h.isLeaf(id) &&
+            static_cast<double>(h.shape(id).area) <= least) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void pruneElements(Problem& problem) {
     hierarchy::Hierarchy& h = problem.hierarchy;
     std::vector<std::uint8_t> isLinked(h.nodeCount(), 0);

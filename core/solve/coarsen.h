@@ -14,6 +14,9 @@ bool asksForCoarser(const Problem& problem);
 /// Forgets all links: the next refinement begins at the root and reads the light that stands.
 void dropLinks(Problem& problem);
 
+/// Whether elements are split that are too small to be by the options of now.
+bool hasTooSmallElements(const Problem& problem);
+
 /// Removes elements at which, and below which, no link ends, and that have no such siblings.
 void pruneElements(Problem& problem);
 

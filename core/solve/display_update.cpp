@@ -19,8 +19,8 @@ constexpr std::uint64_t kMaking = 4;
 DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
     const std::size_t objects = problem.scene->objects.size();
     patchesOf_.resize(objects);
-    meshes_.resize(objects);
-    digests_.assign(objects, 0);
+    shown_.resize(objects);
+    probed_.resize(objects);
     for (const NodeId id : problem.hierarchy.patches()) {
         patchesOf_[problem.hierarchy.name(id).object].push_back(id);
     }
@@ -39,7 +39,7 @@ DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
     });
 }
 
-void DisplayUpdate::rebuild(double curvatureAngle) {
+void DisplayUpdate::rebuild(double curvatureAngle, std::vector<Shown>& all) {
     const StageTimer timer(problem_.statistics.times.display);
     const hierarchy::Hierarchy& h = problem_.hierarchy;
     shownNodes_ = h.nodeCount();
@@ -50,8 +50,11 @@ void DisplayUpdate::rebuild(double curvatureAngle) {
         std::vector<NodeId> stack;
         for (std::size_t o = begin; o < end; ++o) {
             leaves.clear();
-            std::uint64_t digest =
+            // Flat objects are shown alike for any angle.
+            Shown& shown = isCurved_[o] != 0 ? all[o] : shown_[o];
+            std::uint64_t shapeDigest =
                 isCurved_[o] != 0 ? base::mix(std::bit_cast<std::uint64_t>(curvatureAngle)) : 1;
+            std::uint64_t digest = 1;
             for (const NodeId patch : patchesOf_[o]) {
                 stack.push_back(patch);
                 while (!stack.empty()) {
@@ -69,50 +72,59 @@ void DisplayUpdate::rebuild(double curvatureAngle) {
                     // What lies in a narrow gap is known to be dark; of what lies in a solid nothing is
                     // known.
                     const bool isDark = shape.isCovered && shape.exposedCells == 0;
-                    leaves.push_back({name.patch, name.back, name.path, e, isDark ? 1.0f : shape.exposed});
+                    const float exposed = isDark ? 1.0f : shape.exposed;
+                    leaves.push_back({name.patch, name.back, name.path, e, exposed});
+                    shapeDigest = base::mix(shapeDigest ^ name.path) + 2 * std::uint64_t{name.patch} +
+                                  (name.back ? 1 : 0) +
+                                  (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(exposed)) << 32);
                     digest = base::mix(digest ^
                                        (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
                                         std::bit_cast<std::uint32_t>(e.g))) +
-                             std::bit_cast<std::uint32_t>(e.b) + name.path;
+                             std::bit_cast<std::uint32_t>(e.b);
                 }
             }
-            if (leaves.empty() || digest == digests_[o]) {
+            digest = base::mix(digest ^ shapeDigest);
+            if (leaves.empty() || digest == shown.digest) {
                 continue;
             }
-            digests_[o] = digest;
-            meshes_[o] = display::buildDisplayMeshes(*topologies_[o], static_cast<std::uint32_t>(o),
-                                                     problem_.scene->objects[o].material, leaves, options);
+            const bool isSameShape = shown.digest != 0 && shown.shape == shapeDigest;
+            shown.digest = digest;
+            shown.shape = shapeDigest;
+            shown.meshes = isSameShape ? display::revalueDisplayMeshes(shown.meshes, leaves)
+                                       : display::buildDisplayMeshes(
+                                             *topologies_[o], static_cast<std::uint32_t>(o),
+                                             problem_.scene->objects[o].material, leaves, options);
         }
     });
 }
 
 std::uint64_t DisplayUpdate::bytes() const {
     std::uint64_t bytes = 0;
-    for (const display::DisplayMeshes& object : meshes_) {
-        for (const auto& mesh : object.meshes) {
+    std::uint64_t layouts = 0;
+    for (const Shown& object : shown_) {
+        layouts += object.meshes.layoutBytes();
+        for (const auto& mesh : object.meshes.meshes) {
             bytes += mesh->positions.size() * (3 * sizeof(base::Vec3)) +
                      (mesh->texcoords[0].size() + mesh->texcoords[1].size()) * sizeof(base::Vec2) +
                      mesh->triangles.size() * sizeof(std::uint32_t);
         }
     }
-    return kMaking * std::max(bytes, refreshed_);
+    return kMaking * bytes + layouts;
 }
 
 scene::LitMeshes DisplayUpdate::refresh() {
-    rebuild(problem_.options.displayAngle * base::kPi / 180.0);
-    refreshed_ = 0;
-    refreshed_ = bytes() / kMaking;
+    rebuild(problem_.options.displayAngle * base::kPi / 180.0, shown_);
     scene::LitMeshes all;
-    for (const display::DisplayMeshes& object : meshes_) {
-        all.insert(all.end(), object.meshes.begin(), object.meshes.end());
+    for (const Shown& object : shown_) {
+        all.insert(all.end(), object.meshes.meshes.begin(), object.meshes.meshes.end());
     }
     return all;
 }
 
 std::vector<const display::CellTable*> DisplayUpdate::tables() const {
     std::vector<const display::CellTable*> all;
-    for (const display::DisplayMeshes& object : meshes_) {
-        for (const display::CellTable& table : object.tables) {
+    for (const Shown& object : shown_) {
+        for (const display::CellTable& table : object.meshes.tables) {
             all.push_back(&table);
         }
     }
@@ -121,11 +133,12 @@ std::vector<const display::CellTable*> DisplayUpdate::tables() const {
 
 std::vector<Rgb> DisplayUpdate::valuesAt(const std::vector<Probe>& probes) {
     // What is refined for the eye carries the same light.
-    rebuild(base::kPi);
+    rebuild(base::kPi, probed_);
     std::vector<Rgb> values;
     values.reserve(probes.size());
     for (const Probe& p : probes) {
-        const display::DisplayLookup lookup(*problem_.scene->objects[p.object].surface, meshes_[p.object]);
+        const display::DisplayLookup lookup(*problem_.scene->objects[p.object].surface,
+                                            probedOf(p.object)[p.object].meshes);
         values.push_back(lookup.irradiance(p.patch, p.back, p.uv).value_or(Rgb(0.0f)));
     }
     return values;

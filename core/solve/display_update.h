@@ -26,18 +26,25 @@ class DisplayUpdate {
     std::size_t shownNodes() const { return shownNodes_; }
 
   private:
+    /// An object's meshes and what they were made of.
+    struct Shown {
+        display::DisplayMeshes meshes;
+        std::uint64_t shape = 0;   ///< digest of the leaves without their light
+        std::uint64_t digest = 0;  ///< of both
+    };
+
     /// Rebuilds what changed; curved surfaces with the given curvatureAngle (radians).
-    void rebuild(double curvatureAngle);
+    void rebuild(double curvatureAngle, std::vector<Shown>& all);
+    /// Where what probes read of an object is.
+    std::vector<Shown>& probedOf(std::size_t object) { return isCurved_[object] != 0 ? probed_ : shown_; }
 
     Problem& problem_;
     std::vector<std::uint8_t> isCurved_;          ///< by object
     std::vector<std::vector<NodeId>> patchesOf_;  ///< by object
     std::vector<std::unique_ptr<display::PatchTopology>> topologies_;
-    std::vector<display::DisplayMeshes> meshes_;
+    std::vector<Shown> shown_;
+    std::vector<Shown> probed_;  ///< of curved objects, not cut further for the eye
     std::size_t shownNodes_ = 0;
-    std::uint64_t refreshed_ =
-        0;  ///< bytes of the meshes when they were refreshed last, rounder than for probes
-    std::vector<std::uint64_t> digests_;  ///< of each object's leaves and values
 };
 
 }  // namespace fluxwalk::solve

@@ -36,6 +36,15 @@ void seedRadiosity(Problem& problem, double ambient) {
     h.pullClusters();
 }
 
+void darken(Problem& problem) {
+    hierarchy::Hierarchy& h = problem.hierarchy;
+    for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
+        hierarchy::Light& light = h.light(NodeId{i});
+        light.irradiance = light.radiosity = light.slopeS = light.slopeT = Rgb(0.0f);
+        light.residual = 0.0f;
+    }
+}
+
 double meanIrradiance(const hierarchy::Hierarchy& h) {
     double sum = 0.0;
     for (const NodeId id : h.patches()) {

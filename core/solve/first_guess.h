@@ -12,6 +12,9 @@ double estimateAmbient(const Problem& problem);
 /// Gives everything that irradiance.
 void seedRadiosity(Problem& problem, double ambient);
 
+/// Takes all light away where nothing shines.
+void darken(Problem& problem);
+
 /// The threshold of the first level in lux.
 double firstThreshold(OracleKind oracle, double ambient);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/rays/ray_scene.h"
+#include "core/scene/lighting.h"
 #include "core/transport/cluster_model.h"
 #include "core/transport/oracle.h"
 
@@ -75,6 +76,8 @@ struct Options {
     /// Most bytes of memory that the process may hold; 0 for what it has and three quarters of what the
     /// machine has left when the solver is made.
     std::uint64_t memoryLimit = 0;
+    /// How the lights are turned. New ones need new sweeps over the links that stand, and no new solve.
+    scene::Lighting lighting;
 };
 
 }  // namespace fluxwalk::solve

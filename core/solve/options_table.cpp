@@ -19,57 +19,65 @@ constexpr std::string_view kByteUnits = "KMGT";
 
 std::vector<OptionInfo> makeTable() {
     std::vector<OptionInfo> table;
-    table.push_back({.name = "error",
-                     .kind = OptionKind::fraction,
-                     .unit = "%",
-                     .minimum = 1e-4,
-                     .maximum = 1.0,
-                     .explanation =
-                         "Requested error: root mean square of E - E* over all lit sides, as a part of the "
-                         "mean illuminance. Halving it takes several times the work.",
-                     .get = [](const Options& o) { return o.error; },
-                     .set = [](Options& o, double value) { o.error = value; }});
-    table.push_back({.name = "oracle",
-                     .kind = OptionKind::choice,
-                     .minimum = 0.0,
-                     .maximum = 3.0,
-                     .choices = {"bounded", "bfa", "bf", "strict"},
-                     .explanation =
-                         "What decides that a link is fine enough: 'bounded' weighs the spread of kernel, "
-                         "visibility and radiosity by power; 'bfa' the transferred power; 'bf' the "
-                         "transferred illuminance; 'strict' takes certain bounds of kernel, visibility and "
-                         "radiosity instead of samples: many times the work.",
-                     .get = [](const Options& o) { return static_cast<double>(o.oracle); },
-                     .set = [](Options& o, double value) { o.oracle = static_cast<OracleKind>(value); }});
     table.push_back(
-        {.name = "threshold",
-         .unit = "lux",
-         .minimum = 0.0,
-         .maximum = 1e9,
-         .zero = "automatic",
+        {.name = "error",
+         .kind = OptionKind::fraction,
+         .unit = "%",
+         .minimum = 1e-4,
+         .maximum = 1.0,
          .explanation =
-             "Largest error of one link; automatic lowers it until the requested error is reached.",
-         .get = [](const Options& o) { return o.threshold; },
-         .set = [](Options& o, double value) { o.threshold = value; }});
-    table.push_back({.name = "curvature-weight",
-                     .unit = "times",
-                     .minimum = 0.0,
-                     .maximum = 16.0,
-                     .zero = "off",
-                     .explanation =
-                         "How much the spread of the normals over a curved element counts in the oracle "
-                         "'bounded': more refines curved objects further. Planar scenes do not change.",
-                     .get = [](const Options& o) { return o.curvatureWeight; },
-                     .set = [](Options& o, double value) { o.curvatureWeight = value; }});
+             "Requested error: root mean square of E - E* over all lit sides, as a part of the "
+             "mean illuminance. Halving it takes several times the work. Turned up while solving, links "
+             "go back to where they reached it.",
+         .get = [](const Options& o) { return o.error; },
+         .set = [](Options& o, double value) { o.error = value; }});
     table.push_back(
-        {.name = "min-area",
-         .unit = "m2",
+        {.name = "oracle",
+         .kind = OptionKind::choice,
          .minimum = 0.0,
-         .maximum = 1e9,
-         .zero = "automatic",
-         .explanation = "Elements below this area are not split; automatic is 1e-7 of the scene's area.",
-         .get = [](const Options& o) { return o.minArea; },
-         .set = [](Options& o, double value) { o.minArea = value; }});
+         .maximum = 3.0,
+         .choices = {"bounded", "bfa", "bf", "strict"},
+         .explanation =
+             "What decides that a link is fine enough: 'bounded' weighs the spread of kernel, "
+             "visibility and radiosity by power; 'bfa' the transferred power; 'bf' the "
+             "transferred illuminance; 'strict' takes certain bounds of kernel, visibility and "
+             "radiosity instead of samples: many times the work. Turned while solving, links are made anew "
+             "with the light there is.",
+         .get = [](const Options& o) { return static_cast<double>(o.oracle); },
+         .set = [](Options& o, double value) { o.oracle = static_cast<OracleKind>(value); }});
+    table.push_back({.name = "threshold",
+                     .unit = "lux",
+                     .minimum = 0.0,
+                     .maximum = 1e9,
+                     .zero = "automatic",
+                     .explanation = "Largest error of one link; automatic lowers it until the requested "
+                                    "error is reached. Turned down "
+                                    "while solving, refinement goes on from where it is; turned up to more "
+                                    "than twice, links are taken "
+                                    "back.",
+                     .get = [](const Options& o) { return o.threshold; },
+                     .set = [](Options& o, double value) { o.threshold = value; }});
+    table.push_back(
+        {.name = "curvature-weight",
+         .unit = "times",
+         .minimum = 0.0,
+         .maximum = 16.0,
+         .zero = "off",
+         .explanation = "How much the spread of the normals over a curved element counts in the oracle "
+                        "'bounded': more refines curved objects further. Planar scenes do not change. Turned "
+                        "while solving, links are judged again.",
+         .get = [](const Options& o) { return o.curvatureWeight; },
+         .set = [](Options& o, double value) { o.curvatureWeight = value; }});
+    table.push_back({.name = "min-area",
+                     .unit = "m2",
+                     .minimum = 0.0,
+                     .maximum = 1e9,
+                     .zero = "automatic",
+                     .explanation =
+                         "Elements below this area are not split; automatic is 1e-7 of the scene's area. "
+                         "Turned up while solving, smaller ones go.",
+                     .get = [](const Options& o) { return o.minArea; },
+                     .set = [](Options& o, double value) { o.minArea = value; }});
     table.push_back(
         {.name = "pull",
          .kind = OptionKind::choice,
@@ -108,7 +116,7 @@ std::vector<OptionInfo> makeTable() {
          .explanation =
              "How the hierarchy above the patches is built: 'sah' weighs surface, number and the spread of "
              "normals; 'hybrid' surface and number, with regular grids where a region is evenly filled; "
-             "'embree' takes Embree's tree over boxes.",
+             "'embree' takes Embree's tree over boxes. Turned while solving, the solve begins anew.",
          .get = [](const Options& o) { return static_cast<double>(o.clusters); },
          .set = [](Options& o, double value) { o.clusters = static_cast<TreeBuilder>(value); }});
     table.push_back(
@@ -132,19 +140,22 @@ std::vector<OptionInfo> makeTable() {
          .explanation =
              "What links take clusters for: 'oriented' shares light among the surfaces by their directions "
              "and asks rays what they see; 'isotropic' takes them for fog that sends and receives alike in "
-             "all directions: a cheaper approximation, for comparison.",
+             "all directions: a cheaper approximation, for comparison. Turned while solving, the solve "
+             "begins anew.",
          .get = [](const Options& o) { return static_cast<double>(o.clusterModel); },
          .set = [](Options& o, double value) { o.clusterModel = static_cast<ClusterModel>(value); }});
-    table.push_back({.name = "rays",
-                     .kind = OptionKind::choice,
-                     .minimum = 0.0,
-                     .maximum = 1.0,
-                     .choices = {"embree", "clusters"},
-                     .explanation =
-                         "What answers rays of visibility: Embree, or the same kind of tree as the clusters. "
-                         "Both meet the original objects; Embree is faster.",
-                     .get = [](const Options& o) { return static_cast<double>(o.rays); },
-                     .set = [](Options& o, double value) { o.rays = static_cast<RayEngine>(value); }});
+    table.push_back(
+        {.name = "rays",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .choices = {"embree", "clusters"},
+         .explanation =
+             "What answers rays of visibility: Embree, or the same kind of tree as the clusters. "
+             "Both meet the original objects; Embree is faster. Turned while solving, the solve begins "
+             "anew.",
+         .get = [](const Options& o) { return static_cast<double>(o.rays); },
+         .set = [](Options& o, double value) { o.rays = static_cast<RayEngine>(value); }});
     table.push_back(
         {.name = "seed",
          .kind = OptionKind::integer,

@@ -225,7 +225,7 @@ class PointGather {
         if (light.kind == scene::LightKind::directional) {
             const double cosine = -glm::dot(n_, light.direction);
             if (cosine > 0.0 && !problem_.rays.isOccluded(problem_.rays.halfLine(x_, n_, -light.direction))) {
-                deposit(source, cosine * Vec3d(light.intensity));
+                deposit(source, cosine * Vec3d(h_.light(source).emission));
             }
             return;
         }
@@ -234,7 +234,9 @@ class PointGather {
         const double cosine = glm::dot(n_, d) / std::sqrt(r2);
         if (cosine > 0.0 && scene::reaches(light, r2) &&
             !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
-            deposit(source, cosine / r2 * Vec3d(scene::intensityToward(light, -glm::normalize(d))));
+            deposit(source, cosine / r2 *
+                                Vec3d(scene::intensityToward(light, -glm::normalize(d)) *
+                                      h_.lighting().ofLight(h_.lightIndex(source))));
         }
     }
 

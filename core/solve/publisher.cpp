@@ -8,6 +8,7 @@ std::shared_ptr<const Snapshot> Publisher::make(const Detail& detail, bool isFin
     snapshot->meshes = display_.refresh();
     snapshot->statistics = problem_.statistics;
     snapshot->finished = isFinished;
+    snapshot->lighting = problem_.hierarchy.lighting();
     if (detail.elements || detail.residuals) {
         const std::vector<float> residuals =
             detail.residuals ? computeResiduals(problem_) : std::vector<float>{};

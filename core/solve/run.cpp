@@ -41,6 +41,7 @@ void Run::takeNewOptions() {
     }
     const Options built = problem_.options;
     loop_.hasChanged = true;
+    loop_.asked = mergeAsked(loop_.asked, compareOptions(built, *changed, problem_.statistics.history));
     problem_.options = *changed;
     problem_.options.seed = built.seed;
     problem_.options.clusters = built.clusters;
@@ -49,7 +50,7 @@ void Run::takeNewOptions() {
     if (problem_.hierarchy.patches().size() > kMaxPairedPatches) {
         problem_.options.clusterLinks = ClusterLinks::on;
     }
-    isTurned_ = isTurned_ || asksForCoarser(problem_);
+    isTurned_ = isTurned_ || asksForCoarser(problem_) || loop_.asked.turn >= Turn::coarser;
 }
 
 void Run::tell(Moment moment) {
@@ -69,7 +70,11 @@ bool Run::isStopped() {
         isOutOfTime_ = limit > 0.0 && seconds() - loop_.secondsBefore > limit;
         tell(isCut() ? Moment::stop : Moment::wave);
     }
-    return isCut() || isTurned_;
+    return isCut() || isTurned_ || wantsRelight();
+}
+
+bool Run::wantsRelight() const {
+    return !(problem_.options.lighting == problem_.hierarchy.lighting());
 }
 
 bool Run::takeTurn() {
@@ -106,9 +111,10 @@ void Run::publish(bool isFinished) {
     const double wait = std::max(kPublishInterval, kPublishShare * publishTime_);
     const bool isTooEarly = publisher_.count() > 0 ? secondsSince(published_) < wait
                                                    : problem_.statistics.residual > kFirstResidual;
-    if (!callbacks_.publish || (!isFinished && isTooEarly)) {
+    if (!callbacks_.publish || (!isFinished && isTooEarly && !isHurried_)) {
         return;
     }
+    isHurried_ = false;
     const Clock::time_point start = Clock::now();
     callbacks_.publish(publisher_.make(callbacks_.detail ? callbacks_.detail() : Detail{}, isFinished));
     published_ = Clock::now();

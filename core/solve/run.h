@@ -19,6 +19,10 @@ class Run {
     bool isCut() const { return wasStopped_ || isOutOfTime_; }
     /// Whether the level at hand was left for what new options ask for; forgets it.
     bool takeTurn();
+    /// Whether the lights are to be turned; what is at work ends for that too.
+    bool wantsRelight() const;
+    /// The next snapshot need not wait for its time.
+    void hurry() { isHurried_ = true; }
 
     /// Sweeps, `most` times in all, until one changes no more than `residual` of the power.
     void sweep(int most, double residual);
@@ -50,6 +54,7 @@ class Run {
     bool wasStopped_ = false;
     bool isOutOfTime_ = false;
     bool isTurned_ = false;
+    bool isHurried_ = false;
     bool isResumable_ = true;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -99,8 +100,14 @@ Solver::Solver(std::shared_ptr<const scene::Scene> scene, const Options& options
 Solver::~Solver() = default;
 
 void Solver::setOptions(const Options& options) {
-    state_->problem.options = options;
-    state_->loop.hasChanged = true;
+    LoopState& loop = state_->loop;
+    Problem& problem = state_->problem;
+    if (loop.isStarted) {
+        loop.asked =
+            mergeAsked(loop.asked, compareOptions(problem.options, options, problem.statistics.history));
+    }
+    problem.options = options;
+    loop.hasChanged = true;
 }
 const Options& Solver::options() const {
     return state_->problem.options;
@@ -153,6 +160,8 @@ void Solver::start() {
     State& state = *state_;
     Problem& problem = state.problem;
     state.loop.isStarted = true;
+    problem.links.index(problem.hierarchy.nodeCount());
+    problem.hierarchy.relight(problem.options.lighting, problem.executor);
     state.loop.ambient = estimateAmbient(problem);
     seedRadiosity(problem, state.loop.ambient);
     problem.statistics.meanIrradiance = state.loop.ambient;
@@ -163,24 +172,72 @@ void Solver::start() {
     }
 }
 
-// The next threshold: tighter, or, where a limit or a stop left links that it asks to refine, the same again.
+// The next threshold: tighter, or what new options ask for, or, where a limit or a stop left links that it
+// asks to refine, the same again.
 void Solver::tighten() {
     State& state = *state_;
     Problem& problem = state.problem;
     Statistics& statistics = problem.statistics;
     problem.rowScale.clear();
     state.loop.stage = Stage::refine;
+    const Asked asked = std::exchange(state.loop.asked, {});
     const bool isOver = !state.budget().holds(problem.hierarchy.nodeCount(), problem.linkCount());
-    state.loop.isCoarsening = asksForCoarser(problem) || (isOver && !problem.links.links.empty());
+    const bool hasLinks = !problem.links.links.empty();
+    state.loop.isCoarsening = hasLinks && (asksForCoarser(problem) || isOver || asked.turn >= Turn::coarser);
     if (state.loop.isCoarsening) {
-        statistics.threshold = std::max(statistics.threshold, problem.options.threshold);
+        const double first = firstThreshold(problem.options.oracle, state.loop.ambient);
+        statistics.threshold =
+            asked.turn == Turn::anew
+                ? std::max(first, problem.options.threshold)
+                : std::max({statistics.threshold, asked.threshold, problem.options.threshold});
         dropLinks(problem);
-        if (isOver) {
+        if (isOver || hasTooSmallElements(problem)) {
             pruneElements(problem);
         }
-    } else if (statistics.largestError <= statistics.threshold) {
+    } else if (statistics.largestError <= statistics.threshold && asked.turn != Turn::finer) {
         statistics.threshold = std::max(statistics.threshold / kTighten, problem.options.threshold);
     }
+}
+
+// Turns the lights; sweeps then follow. Thresholds keep their meaning beside the light there is.
+void Solver::relight() {
+    State& state = *state_;
+    Problem& problem = state.problem;
+    Statistics& statistics = problem.statistics;
+    if (state.loop.ambient <= 0.0) {
+        // All was dark: nothing is refined yet.
+        start();
+        return;
+    }
+    if (!problem.pending.empty()) {
+        // What was restored in the midst of refinement stands as it is.
+        refineLinks(problem, statistics.threshold, state.budget(), [] { return true; });
+    }
+    const double before = estimateAmbient(problem);
+    problem.hierarchy.relight(problem.options.lighting, problem.executor);
+    if (const double now = estimateAmbient(problem); now > 0.0) {
+        // While all is dark, the last light stays the measure.
+        const double ratio = now / (before > 0.0 ? before : state.loop.ambient);
+        statistics.threshold = std::max(statistics.threshold * ratio, problem.options.threshold);
+        state.loop.ambient *= ratio;
+    } else {
+        // Sweeps would take what is left down by a constant factor each, and never to an end.
+        darken(problem);
+    }
+    problem.rowScale.clear();
+    statistics.estimatedError = -1.0;
+    state.loop.stage = Stage::follow;
+    state.loop.sweeps = 0;
+}
+
+// The next level refines what the new light asks for to the threshold there is, and is compared with this
+// one.
+void Solver::finishFollowing() {
+    State& state = *state_;
+    const StageTimer timer(state.problem.statistics.times.audit);
+    state.loop.gathered = gatherProbes(state.problem, state.probes);
+    state.loop.stage = Stage::refine;
+    state.loop.isCoarsening = false;
 }
 
 Outcome Solver::solve(const Callbacks& callbacks) {
@@ -202,11 +259,34 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         return !state.loop.hasChanged && statistics.history.size() > 3 && problem.options.threshold <= 0.0 &&
                statistics.threshold < 1e-9 * state.loop.ambient;
     };
-    const auto isSettled = [&] { return !asksForCoarser(problem) && (isReached() || isExhausted()); };
+    const auto isSettled = [&] {
+        return state.loop.asked.turn == Turn::none && !asksForCoarser(problem) &&
+               (isReached() || isExhausted());
+    };
+    if (run.wantsRelight() && state.loop.ambient <= 0.0) {
+        relight();
+    }
     const bool isEmpty = problem.hierarchy.patches().empty() || state.loop.ambient <= 0.0;
     Limit limit = Limit::none;
-    const bool isBetweenLevels = state.loop.stage == Stage::tighten;
+    const bool isBetweenLevels = state.loop.stage == Stage::tighten && !run.wantsRelight();
     for (bool isDone = isEmpty || (isBetweenLevels && !statistics.history.empty() && isSettled()); !isDone;) {
+        if (run.wantsRelight()) {
+            relight();
+        }
+        if (state.loop.stage == Stage::follow) {
+            run.report("relighting");
+            run.hurry();
+            run.sweep(kFinalSweeps, kFinalResidual);
+            if (run.wantsRelight()) {
+                continue;
+            }
+            run.hurry();
+            run.publish(false);
+            finishFollowing();
+            if (run.isCut()) {
+                break;
+            }
+        }
         if (state.loop.stage == Stage::tighten) {
             tighten();
         }
@@ -221,7 +301,13 @@ Outcome Solver::solve(const Callbacks& callbacks) {
             state.loop.stage = Stage::sweep;
             state.loop.sweeps = 0;
         }
+        if (run.wantsRelight() && !run.isCut()) {
+            continue;
+        }
         run.sweep(kSweepsPerLevel, 0.05 * problem.options.error);
+        if (run.wantsRelight() && !run.isCut()) {
+            continue;
+        }
         state.loop.stage = Stage::tighten;
         run.audit(kAuditRays);
         statistics.estimatedError = estimateError();
@@ -233,11 +319,11 @@ Outcome Solver::solve(const Callbacks& callbacks) {
             run.finishLevel();
         }
         run.publish(false);
-        isDone = run.isStopped() || limit != Limit::none || isSettled();
+        run.isStopped();
+        const bool isAsked = run.wantsRelight() || state.loop.asked.turn != Turn::none;
+        isDone = run.isCut() || (!isAsked && (limit != Limit::none || isSettled()));
     }
-    if (problem.options.rowScaling) {
-        problem.rowScale = computeRowScaling(problem);
-    }
+    problem.rowScale = problem.options.rowScaling ? computeRowScaling(problem) : std::vector<float>{};
     run.report("converging");
     run.beginLastSweeps();
     run.sweep(kFinalSweeps, kFinalResidual);

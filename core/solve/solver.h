@@ -27,6 +27,8 @@ struct Snapshot {
     /// As far as Callbacks::detail asks for them. Elements are parallel to the meshes.
     std::vector<std::shared_ptr<const MeshElements>> elements;
     std::shared_ptr<const std::vector<ClusterBox>> clusters;
+    /// The lights that this is the light of.
+    scene::Lighting lighting;
 };
 
 /// Why solve() returned.
@@ -55,7 +57,7 @@ struct Callbacks {
     std::function<void()> settled;
     /// Asked at wave boundaries; true ends the solve with what it has.
     std::function<bool()> shouldStop;
-    /// Asked at wave boundaries; new options take effect there (error, oracle, threshold, minArea).
+    /// Asked at wave boundaries; new options take effect there (error, oracle, threshold, minArea, lighting).
     std::function<std::optional<Options>()> newOptions;
     /// Called at all of these; Solver::checkpoint() then gives what the solve can go on from.
     std::function<void(Moment)> resumable;
@@ -98,6 +100,8 @@ class Solver {
   private:
     void start();
     void tighten();
+    void relight();
+    void finishFollowing();
     double estimateError();
 
     struct State;

@@ -268,5 +268,36 @@ TEST(DisplayMeshDeath, RefusesLeavesThatDoNotTile) {
     EXPECT_DEATH(build(*floor, leaves), "check failed");
 }
 
+// Light that changes on leaves that stay: as if built anew, to the bit.
+TEST(DisplayMesh, RevaluedMeshesAreThoseOfTheNewLight) {
+    const auto floor = makeFloor(3, 4.0f);
+    const auto triangles = makeTriangleFloor(4.0f);
+    const auto box = makeBox({1, 2, 3});
+    const surface::Sphere sphere(Vec3d(0.0), 1.0);
+    for (const surface::Surface* surface :
+         {static_cast<const surface::Surface*>(floor.get()),
+          static_cast<const surface::Surface*>(triangles.get()),
+          static_cast<const surface::Surface*>(box.get()), static_cast<const surface::Surface*>(&sphere)}) {
+        const PatchTopology topology(*surface);
+        std::vector<Leaf> leaves = makeLeaves(*surface, slope, SplitRandomly{4}, 1);
+        const DisplayMeshes before = buildDisplayMeshes(topology, 3, 5, leaves, MeshOptions{});
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+            leaves[i].irradiance *= static_cast<float>(0.1 + 0.37 * static_cast<double>(i % 7));
+        }
+        std::reverse(leaves.begin(), leaves.end());
+        const DisplayMeshes revalued = revalueDisplayMeshes(before, leaves);
+        const DisplayMeshes built = buildDisplayMeshes(topology, 3, 5, leaves, MeshOptions{});
+        ASSERT_EQ(revalued.meshes.size(), built.meshes.size());
+        for (std::size_t m = 0; m < built.meshes.size(); ++m) {
+            EXPECT_EQ(revalued.meshes[m]->irradiance, built.meshes[m]->irradiance);
+            EXPECT_NE(before.meshes[m]->irradiance, built.meshes[m]->irradiance);
+            EXPECT_EQ(revalued.meshes[m]->positions, built.meshes[m]->positions);
+            EXPECT_EQ(revalued.meshes[m]->triangles, built.meshes[m]->triangles);
+            EXPECT_EQ(revalued.meshes[m]->object, 3u);
+            EXPECT_EQ(revalued.meshes[m]->material, 5u);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace fluxwalk::display

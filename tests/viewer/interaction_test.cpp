@@ -97,5 +97,30 @@ TEST_F(Window, IReadsThePointUnderTheCursor) {
         waitFor([&](const Picture& p) { return beside(p, 600, 500) < 0.3 && beside(p, 700, 300) < 0.3; }));
 }
 
+TEST_F(Window, LampsAreSwitchedAndDimmedInThePanel) {
+    const auto isLit = [](const Picture& p) { return p.at(700, 300).r > 60; };
+    const auto isDark = [](const Picture& p) { return p.at(700, 300).r < 8; };
+    const auto click = [](int x, int y) {
+        point(x, y);
+        std::this_thread::sleep_for(150ms);
+        act("mousedown 1");
+        std::this_thread::sleep_for(200ms);
+        act("mouseup 1");
+        std::this_thread::sleep_for(400ms);
+    };
+    // The lamp's row of the panel, as it stands once the box is solved.
+    ASSERT_TRUE(waitFor([](const Picture& p) { return partDark(p, 30, 48, 400, 416) < 0.9; }));
+    constexpr int row = 408;
+    click(39, row);
+    ASSERT_TRUE(waitFor(isDark));
+    click(39, row);
+    EXPECT_TRUE(waitFor(isLit));
+    // The left end of its slider is 0 %, the middle is not.
+    click(160, row);
+    EXPECT_TRUE(waitFor(isDark));
+    click(250, row);
+    EXPECT_TRUE(waitFor(isLit));
+}
+
 }  // namespace
 }  // namespace fluxwalk

@@ -318,6 +318,9 @@ TEST(SolverSession, Stress) {
             if (choice < 0.3) {
                 Options options;
                 options.error = random.next();
+                options.seed = random.next() < 0.05 ? 2 : 1;
+                options.lighting.lights.assign(static_cast<std::size_t>(4.0 * random.next()),
+                                               base::Rgb(static_cast<float>(random.next())));
                 session.setOptions(options);
             } else if (choice < 0.4) {
                 session.setPaused(random.next() < 0.5);

@@ -44,7 +44,7 @@ std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_pt
     const gl::Functions& gl = context.functions();
     const gl::RenderTarget target(gl, size, kSamples);
     render::SceneRenderer renderer(gl, scene);
-    renderer.setMeshes(snapshot.meshes);
+    renderer.setMeshes(snapshot.meshes, snapshot.lighting);
     std::optional<ui::Legend> legend = fillOverlay(renderer.overlay(), snapshot, look, renderer.colorMap());
     if (look.shown == render::Shown::illuminance || look.shown == render::Shown::luminance) {
         legend = ui::makeLegend(look, renderer.rangeOf(look), renderer.colorMap());

@@ -201,6 +201,8 @@ std::unique_ptr<Exhibit> makeExhibit(const ViewArguments& arguments) {
         shown.scene = std::make_shared<const scene::Scene>(cli::loadScene(arguments.scene));
         shown.solid = shown.scene;
         exhibit->options = checkpointing->options();
+        exhibit->options->lighting =
+            cli::turnLights(arguments.solver.lights, *shown.scene, exhibit->options->lighting);
         exhibit->solver.make = [checkpointing, scene = shown.scene,
                                 threads = arguments.solver.threads](const solve::Options& options) {
             return checkpointing->makeSolver(scene, options, threads);

@@ -74,6 +74,7 @@ class Walkthrough {
     ui::Walker walker_;
     ui::ViewSettings settings_;
     solve::Options options_;
+    std::vector<scene::LightSource> lights_;
     bool isPaused_ = false;
     bool hasChosenMovement_ = false;
     std::shared_ptr<const solve::Snapshot> shown_;
@@ -108,11 +109,13 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, Scen
       mouse_(window.window()),
       tappedKeys_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
-      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection},
+      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection, true, true, {}},
       options_(exhibit.options.value_or(solve::Options{})),
+      lights_(scene::listLightSources(*exhibit.scene)),
       now_(glfwGetTime()),
       floor_(exhibit.solid),
       tour_(window, exhibit, opener) {
+    settings_.lights = ui::controlsOf(lights_, options_.lighting);
     if (exhibit.options) {
         session_ = std::make_unique<session::SolverSession>(session::solveWith(exhibit.solver),
                                                             *exhibit.options, [] { glfwPostEmptyEvent(); });
@@ -158,7 +161,7 @@ void Walkthrough::takeSnapshot() {
 }
 
 void Walkthrough::show(std::shared_ptr<const solve::Snapshot> snapshot) {
-    renderer_.setMeshes(snapshot->meshes);
+    renderer_.setMeshes(snapshot->meshes, snapshot->lighting);
     automaticExposure_ = renderer_.automaticExposure();
     shown_ = std::move(snapshot);
     needsDrawing_ = true;
@@ -322,6 +325,7 @@ void Walkthrough::drawInterface() {
     info.renderer = window_.renderer();
     info.shownRange = renderer_.rangeOf(settings_.draw);
     info.places = tour_.places();
+    info.lights = lights_;
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
     inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse &&

@@ -71,8 +71,13 @@ void SceneRenderer::sendColorMap() const {
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-std::size_t SceneRenderer::setMeshes(const scene::LitMeshes& meshes) {
+std::size_t SceneRenderer::setMeshes(const scene::LitMeshes& meshes, const scene::Lighting& lighting) {
     std::size_t sent = 0;
+    if (!(lighting == lighting_)) {
+        // How bright a mesh is depends on them too.
+        meshes_.clear();
+        lighting_ = lighting;
+    }
     std::unordered_map<const scene::LitMesh*, GpuMesh> kept;
     opaque_.clear();
     blended_.clear();
@@ -81,7 +86,8 @@ std::size_t SceneRenderer::setMeshes(const scene::LitMeshes& meshes) {
     triangleCount_ = 0;
     for (const auto& mesh : meshes) {
         FLUXWALK_CHECK_LT(mesh->material, scene_->materials.size());
-        const scene::Material& material = scene_->materials[mesh->material];
+        scene::Material material = scene_->materials[mesh->material];
+        material.emission *= lighting_.ofMaterial(mesh->material);
         auto node = meshes_.extract(mesh.get());
         if (node.empty()) {
             const MeshLuminance luminance =
@@ -182,8 +188,9 @@ void SceneRenderer::drawLit(const scene::Camera& camera, const glm::mat4& clipFr
 void SceneRenderer::drawBackground(const scene::Camera& camera, const glm::mat4& clipFromWorld,
                                    const DrawSettings& settings) const {
     const glm::mat4 worldFromClip = glm::inverse(clipFromWorld);
-    const base::Rgb sky = settings.shown == Shown::picture ? scene_->sky * static_cast<float>(1.0 / base::kPi)
-                                                           : base::Rgb(0.0f);
+    const base::Rgb sky = settings.shown == Shown::picture
+                              ? scene_->sky * lighting_.sky * static_cast<float>(1.0 / base::kPi)
+                              : base::Rgb(0.0f);
     background_.use();
     setTone(backgroundTone_, settings);
     gl_.UniformMatrix4fv(background_.uniform("worldFromClip"), 1, GL_FALSE, &worldFromClip[0][0]);
@@ -198,7 +205,8 @@ void SceneRenderer::drawBackground(const scene::Camera& camera, const glm::mat4&
 
 void SceneRenderer::drawMesh(const GpuMesh& mesh) {
     const scene::Material& material = scene_->materials[mesh.source().material];
-    const base::Rgb emission = emissionOfSide(mesh.source(), material);
+    const base::Rgb emission =
+        emissionOfSide(mesh.source(), material) * lighting_.ofMaterial(mesh.source().material);
     const glm::mat3 forReflectance = texcoordTransform(material.reflectanceTexture);
     const glm::mat3 forEmission = texcoordTransform(material.emissionTexture);
     const bool hasHoles = material.alphaMode == scene::AlphaMode::mask;

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "core/scene/lighting.h"
 #include "viewer/render/color_map.h"
 #include "viewer/render/false_color.h"
 #include "viewer/render/gpu_mesh.h"
@@ -50,9 +50,9 @@ class SceneRenderer {
   public:
     SceneRenderer(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene);
 
-    /// The meshes to draw from now on. Those that are already on the GPU (same pointer) stay there. Returns
-    /// how many were sent.
-    std::size_t setMeshes(const scene::LitMeshes& meshes);
+    /// The meshes to draw from now on, and the lights that they are lit by. Those that are already on the GPU
+    /// (same pointer) stay there. Returns how many were sent.
+    std::size_t setMeshes(const scene::LitMeshes& meshes, const scene::Lighting& lighting = {});
     std::size_t triangleCount() const { return triangleCount_; }
     const base::Box& bounds() const { return bounds_; }
 
@@ -95,6 +95,7 @@ class SceneRenderer {
 
     const gl::Functions& gl_;
     std::shared_ptr<const scene::Scene> scene_;
+    scene::Lighting lighting_;
     gl::Program lit_;
     LitUniforms litUniforms_;
     ToneUniforms litTone_;

@@ -1,3 +1,4 @@
+#include "core/solve/turn.h"
 #include "viewer/session/solver_session.h"
 
 namespace fluxwalk::session {
@@ -8,7 +9,9 @@ Solving solveWith(SolverSource source) {
     Solving solving;
     solving.solve = [source = std::move(source), solver](const solve::Options& options,
                                                          const solve::Callbacks& callbacks) {
-        if (*solver == nullptr) {
+        if (*solver == nullptr || solve::needsNewSolver((*solver)->options(), options)) {
+            // Before the new one is made, so that memory is needed once.
+            solver->reset();
             *solver = source.make(options);
         } else {
             (*solver)->setOptions(options);

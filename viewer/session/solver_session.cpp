@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/solve/turn.h"
+
 namespace fluxwalk::session {
 
 SolverSession::SolverSession(Solving solving, const solve::Options& options, std::function<void()> wake)
@@ -29,6 +31,7 @@ solve::Options SolverSession::options() const {
 
 void SolverSession::setOptions(const solve::Options& options) {
     const std::lock_guard lock(mutex_);
+    needsNewSolver_ = needsNewSolver_ || solve::needsNewSolver(options_, options);
     options_ = options;
     hasNewOptions_ = true;
     // From here on wait() means the end of what is asked now.
@@ -159,11 +162,13 @@ solve::Callbacks SolverSession::makeCallbacks() {
     };
     callbacks.shouldStop = [this] {
         const std::lock_guard lock(mutex_);
-        return isStopping_ || isPaused_;
+        return isStopping_ || isPaused_ || needsNewSolver_;
     };
     callbacks.newOptions = [this]() -> std::optional<solve::Options> {
         const std::lock_guard lock(mutex_);
-        return std::exchange(hasNewOptions_, false) ? std::optional(options_) : std::nullopt;
+        const bool isTaken = hasNewOptions_ && !needsNewSolver_;
+        hasNewOptions_ = hasNewOptions_ && !isTaken;
+        return isTaken ? std::optional(options_) : std::nullopt;
     };
     callbacks.progress = [this](double progress, const char* stage) {
         const std::lock_guard lock(mutex_);
@@ -176,6 +181,7 @@ solve::Callbacks SolverSession::makeCallbacks() {
 void SolverSession::solveOnce(std::unique_lock<std::mutex>& lock) {
     enter(lock, Phase::solving);
     hasNewOptions_ = false;
+    needsNewSolver_ = false;
     const solve::Options options = options_;
     lock.unlock();
     const solve::Outcome outcome = solving_.solve(options, makeCallbacks());

@@ -82,7 +82,8 @@ class SolverSession {
     std::shared_ptr<const solve::Snapshot> latest() const;
     Status status() const;
 
-    /// Takes effect at the next wave; makes a finished session go on.
+    /// Takes effect at the next wave; makes a finished session go on. Options that are fixed when a solver is
+    /// made (solve::needsNewSolver) make a new one, while the last snapshot of the old one stays.
     void setOptions(const solve::Options& options);
     solve::Options options() const;
     void setPaused(bool paused);
@@ -123,6 +124,7 @@ class SolverSession {
     std::optional<rays::Ray> question_;
     std::shared_ptr<const Finding> finding_;
     bool hasNewOptions_ = true;
+    bool needsNewSolver_ = false;
     bool isUnfinished_ = true;
     bool isPaused_ = false;
     bool isStopping_ = false;

@@ -9,6 +9,7 @@
 #include "core/base/photometry.h"
 #include "viewer/render/exposure.h"
 #include "viewer/ui/format.h"
+#include "viewer/ui/option_widget.h"
 #include "viewer/ui/theme.h"
 #include "viewer/ui/widgets.h"
 
@@ -98,53 +99,6 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
         actions.togglesPause = true;
     }
     explain("Holds the solver at the next wave of links; the solution so far stays. Key: P");
-}
-
-void drawSolution(const PanelInfo& info, solve::Options& options, PanelActions& actions) {
-    double percent = options.error * 100.0;
-    beginRow(
-        "Error target",
-        "The solver goes on until the root mean square error of the irradiance, over all sides that light "
-        "reaches, is this part of its mean. Takes effect at once; what is solved is kept.");
-    if (slideLogarithmic("##error", percent, 0.1, 50.0, "%.2g %%")) {
-        options.error = percent / 100.0;
-        actions.changedOptions = true;
-    }
-
-    constexpr std::array<const char*, 3> kOracles{"Bounded error", "BFA (power)", "BF (irradiance)"};
-    int oracle = static_cast<int>(options.oracle);
-    beginRow(
-        "Oracle",
-        "Decides which links are refined.\n\nBounded error: by the spread of kernel, visibility and "
-        "radiosity, weighed by power.\nBFA: by the power that a link carries.\nBF: by the irradiance that "
-        "a link carries.");
-    if (ImGui::Combo("##oracle", &oracle, kOracles.data(), static_cast<int>(kOracles.size()))) {
-        options.oracle = static_cast<solve::OracleKind>(oracle);
-        actions.changedOptions = true;
-    }
-
-    bool isAutomatic = options.threshold <= 0.0;
-    beginRow(
-        "Threshold",
-        "Largest error of one link in lux: smaller means finer elements and more links. Automatic lowers "
-        "it step by step until the error target is reached.");
-    if (ImGui::Checkbox("automatic", &isAutomatic)) {
-        const double present = info.snapshot != nullptr ? info.snapshot->statistics.threshold : 0.0;
-        options.threshold = isAutomatic ? 0.0 : present > 0.0 ? present : 1.0;
-        actions.changedOptions = true;
-    }
-    if (!isAutomatic) {
-        beginRow("", "");
-        actions.changedOptions |= slideLogarithmic("##threshold", options.threshold, 1e-4, 1e4, "%.4g lx");
-    }
-}
-
-void drawRoundness(solve::Options& options, PanelActions& actions) {
-    beginRow(
-        "Roundness",
-        "Curved surfaces are shown by triangles whose true normals lie within this angle of a common axis: "
-        "smaller is rounder. Takes effect at once, without solving anew.");
-    actions.changedOptions |= slideLogarithmic("##angle", options.displayAngle, 0.5, 30.0, "%.2g degrees");
 }
 
 void drawExposure(ViewSettings& settings) {
@@ -243,10 +197,13 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
         drawProgress(info, actions, scale);
         if (info.session && beginSection("Solution")) {
-            drawSolution(info, options, actions);
+            actions.changedOptions |= drawSolution(info, options);
             if (info.snapshot != nullptr) {
                 drawConvergence(info.snapshot->statistics, options.error, scale);
             }
+        }
+        if (info.session && !info.lights.empty() && beginSection("Lights")) {
+            actions.changedOptions |= drawLights(info, settings.lights, options);
         }
         if (beginSection("See why")) {
             drawShown(info, settings);
@@ -256,7 +213,7 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
         }
         if (beginSection("View")) {
             if (info.session) {
-                drawRoundness(options, actions);
+                actions.changedOptions |= drawOption("display-angle", "Roundness", options);
             }
             drawMovement(info, settings, walker, actions);
         }

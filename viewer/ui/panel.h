@@ -8,6 +8,7 @@
 #include "viewer/session/solver_session.h"
 #include "viewer/ui/exposure_control.h"
 #include "viewer/ui/inspection.h"
+#include "viewer/ui/light_control.h"
 #include "viewer/ui/places.h"
 #include "viewer/ui/walker.h"
 
@@ -23,6 +24,8 @@ struct ViewSettings {
     InspectionView inspection;
     bool smoothEdges = true;
     bool isPanelOpen = true;
+    /// One for each of PanelInfo::lights.
+    std::vector<LightControl> lights;
 };
 
 /// What the panel tells.
@@ -36,6 +39,8 @@ struct PanelInfo {
     std::size_t triangleCount = 0;
     double framesPerSecond = 0.0;  ///< 0 while the picture stands still
     std::string renderer;
+    /// What shines in the scene.
+    std::vector<scene::LightSource> lights;
     /// Range in which values are shown at present.
     render::ValueRange shownRange;
     Places places;
@@ -61,6 +66,9 @@ void drawKeys(bool isCaptured, Movement movement, float scale);
 /// Sections of the panel, each in its own file.
 void drawShown(const PanelInfo& info, ViewSettings& settings);
 void drawStatistics(const PanelInfo& info);
+/// Both return whether `options` changed.
+bool drawLights(const PanelInfo& info, std::vector<LightControl>& controls, solve::Options& options);
+bool drawSolution(const PanelInfo& info, solve::Options& options);
 void drawConvergence(const solve::Statistics& statistics, double target, float scale);
 
 }  // namespace fluxwalk::ui
