@@ -45,6 +45,7 @@ namespace fluxwalk::gl {
     X(DRAWELEMENTSBASEVERTEX, DrawElementsBaseVertex)                 \
     X(ENABLE, Enable)                                                 \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
+    X(FINISH, Finish)                                                 \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \
     X(GENBUFFERS, GenBuffers)                                         \
     X(GENFRAMEBUFFERS, GenFramebuffers)                               \
