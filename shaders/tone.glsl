@@ -2,7 +2,12 @@
 // same in C++; a test compares them.
 
 uniform float exposure;  // per cd/m2
-uniform int toneCurve;   // 0 linear, 1 filmic, 2 Reinhard
+uniform int toneCurve;   // 0 linear, 1 filmic, 2 Reinhard, 3 hue
+#if GLOW
+uniform sampler2D glow;   // blurred luminance, cd/m2
+uniform float glowPart;   // of the light that comes to the eye by way of it
+uniform vec2 glowScale;   // from pixels to the picture
+#endif
 
 // A rational curve through (0, 0) with slope 0.6, (0.18, 0.18), (1, 0.782) and (8, 0.99), tending to 1.
 vec3 filmic(vec3 x) {
@@ -13,6 +18,16 @@ vec3 filmic(vec3 x) {
 vec3 reinhard(vec3 x) {
     float y = dot(x, vec3(0.2126, 0.7152, 0.0722));
     return x * (1.0 + y / 16.0) / (1.0 + y);
+}
+
+// The filmic curve on the brightest channel, the others in proportion: the hue stays. What shines takes on white,
+// by the eighth power of the curve, as film and eyes do; mixing with grey leaves the hue too.
+vec3 keepHue(vec3 x) {
+    float peak = max(max(x.r, x.g), max(x.b, 1e-12));
+    float curved = filmic(vec3(peak)).r;
+    float square = curved * curved;
+    float white = square * square * square * square;
+    return curved * mix(x / peak, vec3(1.0), white);
 }
 
 vec3 encodeSrgb(vec3 x) {
@@ -33,7 +48,17 @@ vec3 encodeForScreen(vec3 display) {
 }
 
 vec3 toDisplay(vec3 luminance) {
+#if GLOW
+    luminance = mix(luminance, texture(glow, gl_FragCoord.xy * glowScale).rgb, glowPart);
+#endif
     vec3 x = exposure * luminance;
-    vec3 curved = toneCurve == 1 ? filmic(x) : toneCurve == 2 ? reinhard(x) : x;
+    vec3 curved = x;
+    if (toneCurve == 1) {
+        curved = filmic(x);
+    } else if (toneCurve == 2) {
+        curved = reinhard(x);
+    } else if (toneCurve == 3) {
+        curved = keepHue(x);
+    }
     return encodeForScreen(curved);
 }

@@ -230,9 +230,12 @@ TEST_F(OneQuad, SendsOnlyWhatChanged) {
     EXPECT_EQ(renderer.setMeshes({a, b}), 2u);
     EXPECT_EQ(renderer.triangleCount(), 4u);
     EXPECT_EQ(renderer.setMeshes({a, b}), 0u);
+    // Another array with the same content is on the GPU already.
     const auto c = std::make_shared<const scene::LitMesh>(mesh_);
-    EXPECT_EQ(renderer.setMeshes({c, b}), 1u);
+    EXPECT_EQ(renderer.setMeshes({c, b}), 0u);
     EXPECT_EQ(a.use_count(), 1);  // let go
+    mesh_.irradiance[2] += 1.0f;
+    EXPECT_EQ(renderer.setMeshes({std::make_shared<const scene::LitMesh>(mesh_), b}), 1u);
     EXPECT_EQ(renderer.setMeshes({}), 0u);
     EXPECT_TRUE(renderer.bounds().isEmpty());
     EXPECT_EQ(context_->functions().GetError(), static_cast<GLenum>(GL_NO_ERROR));

@@ -31,6 +31,8 @@ constexpr double kFollowingPart = 0.25;
 /// Seconds after the last movement when a software picture gets its smooth edges back.
 constexpr double kStandstill = 0.3;
 constexpr int kSamples = 4;
+/// Seconds between readings of the light meter.
+constexpr double kMeteringTime = 0.2;
 /// What the line of keys takes of the lower edge, at 96 dpi.
 constexpr float kKeysHeight = 58.0f;
 /// A camera so many metres above a floor is a person who stands there and will want to walk.
@@ -53,6 +55,7 @@ class Walkthrough {
     void chooseMovement();
     void takeKeys();
     bool move(double seconds);
+    void meter();
     void drawScene();
     void drawInterface();
 
@@ -70,6 +73,8 @@ class Walkthrough {
     bool hasChosenMovement_ = false;
     std::shared_ptr<const solve::Snapshot> shown_;
     double automaticExposure_ = 0.0;
+    bool isMeteringOld_ = true;
+    double lastMetering_ = -1.0;
     /// Settings that the overlay was filled for.
     render::DrawSettings overlaid_;
     std::optional<ui::Legend> faceLegend_;
@@ -138,7 +143,7 @@ void Walkthrough::takeSnapshot() {
 
 void Walkthrough::show(std::shared_ptr<const solve::Snapshot> snapshot) {
     renderer_.setMeshes(snapshot->meshes);
-    automaticExposure_ = renderer_.automaticExposure();
+    isMeteringOld_ = true;
     shown_ = std::move(snapshot);
     needsDrawing_ = true;
     isOverlayOld_ = true;
@@ -255,6 +260,19 @@ bool Walkthrough::move(double seconds) {
     return changed || input.ahead != 0.0 || input.right != 0.0 || input.up != 0.0;
 }
 
+// The exposure follows what is seen, as eyes do.
+void Walkthrough::meter() {
+    const gl::PixelSize size = window_.framebufferSize();
+    const bool isLocked = !settings_.exposure.isAutomatic && settings_.exposure.exposure > 0.0;
+    if (!isMeteringOld_ || isLocked || !shown_ || size.height <= 0 || now_ - lastMetering_ < kMeteringTime) {
+        return;
+    }
+    automaticExposure_ =
+        renderer_.meterExposure(walker_.camera(), static_cast<double>(size.width) / size.height);
+    isMeteringOld_ = false;
+    lastMetering_ = now_;
+}
+
 void Walkthrough::drawScene() {
     const gl::PixelSize size = window_.framebufferSize();
     if (size.width <= 0 || size.height <= 0) {
@@ -295,7 +313,10 @@ void Walkthrough::drawInterface() {
     info.triangleCount = renderer_.triangleCount();
     info.framesPerSecond = framesPerSecond_;
     info.renderer = window_.renderer();
-    info.shownRange = renderer_.rangeOf(settings_.draw);
+    if (settings_.draw.shown == render::Shown::illuminance ||
+        settings_.draw.shown == render::Shown::luminance) {
+        info.shownRange = renderer_.rangeOf(settings_.draw);
+    }
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
     inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse);
@@ -341,6 +362,8 @@ void Walkthrough::step() {
     drawInterface();
     followOverlays();
     ImGui::Render();
+    isMeteringOld_ |= needsDrawing_;
+    meter();
     const bool isAdapting =
         automaticExposure_ > 0.0 && settings_.exposure.follow(automaticExposure_, seconds);
     isAnimating_ = isMoving || isAdapting || now_ - lastMove_ < kStandstill;

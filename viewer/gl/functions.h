@@ -22,6 +22,7 @@ namespace fluxwalk::gl {
     X(BLENDFUNCSEPARATE, BlendFuncSeparate)                           \
     X(BLITFRAMEBUFFER, BlitFramebuffer)                               \
     X(BUFFERDATA, BufferData)                                         \
+    X(BUFFERSUBDATA, BufferSubData)                                   \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                 \
     X(CLEAR, Clear)                                                   \
     X(CLEARCOLOR, ClearColor)                                         \
@@ -40,6 +41,7 @@ namespace fluxwalk::gl {
     X(DEPTHMASK, DepthMask)                                           \
     X(DETACHSHADER, DetachShader)                                     \
     X(DISABLE, Disable)                                               \
+    X(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)             \
     X(DRAWARRAYS, DrawArrays)                                         \
     X(DRAWELEMENTS, DrawElements)                                     \
     X(DRAWELEMENTSBASEVERTEX, DrawElementsBaseVertex)                 \
@@ -47,6 +49,7 @@ namespace fluxwalk::gl {
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
     X(FINISH, Finish)                                                 \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \
+    X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                     \
     X(GENBUFFERS, GenBuffers)                                         \
     X(GENFRAMEBUFFERS, GenFramebuffers)                               \
     X(GENRENDERBUFFERS, GenRenderbuffers)                             \
@@ -54,12 +57,14 @@ namespace fluxwalk::gl {
     X(GENVERTEXARRAYS, GenVertexArrays)                               \
     X(GENERATEMIPMAP, GenerateMipmap)                                 \
     X(GETERROR, GetError)                                             \
+    X(GETFLOATV, GetFloatv)                                           \
     X(GETINTEGERV, GetIntegerv)                                       \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                           \
     X(GETPROGRAMIV, GetProgramiv)                                     \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                             \
     X(GETSHADERIV, GetShaderiv)                                       \
     X(GETSTRING, GetString)                                           \
+    X(GETSTRINGI, GetStringi)                                         \
     X(GETUNIFORMLOCATION, GetUniformLocation)                         \
     X(LINKPROGRAM, LinkProgram)                                       \
     X(PIXELSTOREI, PixelStorei)                                       \
@@ -68,6 +73,7 @@ namespace fluxwalk::gl {
     X(SCISSOR, Scissor)                                               \
     X(SHADERSOURCE, ShaderSource)                                     \
     X(TEXIMAGE2D, TexImage2D)                                         \
+    X(TEXPARAMETERF, TexParameterf)                                   \
     X(TEXPARAMETERI, TexParameteri)                                   \
     X(UNIFORM1F, Uniform1f)                                           \
     X(UNIFORM1I, Uniform1i)                                           \
