@@ -1,8 +1,7 @@
 // From luminance to the screen: exposure, tone curve, sRGB encoding, dithering. viewer/render/tone.cpp is the
-// same in C++; a test compares them.
+// same in C++; a test compares them. CURVE: 0 linear, 1 filmic, 2 Reinhard, 3 hue.
 
 uniform float exposure;  // per cd/m2
-uniform int toneCurve;   // 0 linear, 1 filmic, 2 Reinhard, 3 hue
 #if GLOW
 uniform sampler2D glow;   // blurred luminance, cd/m2
 uniform float glowPart;   // of the light that comes to the eye by way of it
@@ -35,16 +34,14 @@ vec3 encodeSrgb(vec3 x) {
                greaterThan(x, vec3(0.0031308)));
 }
 
-// Uniform in [-0.5, 0.5), fixed to the pixel: smooth gradients get no bands, still pictures no flicker.
-float ditherNoise(uvec2 pixel) {
-    uint h = pixel.x * 1664525u + pixel.y * 22695477u + 1013904223u;
-    h = (h ^ (h >> 15)) * 2246822519u;
-    h = (h ^ (h >> 13)) * 3266489917u;
-    return float((h ^ (h >> 16)) >> 8) / 16777216.0 - 0.5;
+// Between -0.5 and 0.5, fixed to the pixel: smooth gradients get no bands, still pictures no flicker. Jimenez 2014,
+// interleaved gradient noise: neighbours differ much, so that the eye sees only their mean.
+float ditherNoise(vec2 pixel) {
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5;
 }
 
 vec3 encodeForScreen(vec3 display) {
-    return encodeSrgb(clamp(display, 0.0, 1.0)) + ditherNoise(uvec2(gl_FragCoord.xy)) / 255.0;
+    return encodeSrgb(clamp(display, 0.0, 1.0)) + ditherNoise(gl_FragCoord.xy) / 255.0;
 }
 
 vec3 toDisplay(vec3 luminance) {
@@ -52,13 +49,12 @@ vec3 toDisplay(vec3 luminance) {
     luminance = mix(luminance, texture(glow, gl_FragCoord.xy * glowScale).rgb, glowPart);
 #endif
     vec3 x = exposure * luminance;
-    vec3 curved = x;
-    if (toneCurve == 1) {
-        curved = filmic(x);
-    } else if (toneCurve == 2) {
-        curved = reinhard(x);
-    } else if (toneCurve == 3) {
-        curved = keepHue(x);
-    }
-    return encodeForScreen(curved);
+#if CURVE == 1
+    x = filmic(x);
+#elif CURVE == 2
+    x = reinhard(x);
+#elif CURVE == 3
+    x = keepHue(x);
+#endif
+    return encodeForScreen(x);
 }

@@ -27,16 +27,33 @@ Surface surfaceOf(const scene::Material& material) {
     return hasTexture ? Surface::textured : Surface::plain;
 }
 
+/// What a shader is made for.
+struct Variant {
+    Surface surface = Surface::plain;
+    Output output = Output::screen;
+    ToneCurve curve = ToneCurve::linear;
+    bool glows = false;
+
+    unsigned number() const {
+        const unsigned look = 4 * static_cast<unsigned>(output) + static_cast<unsigned>(curve);
+        return 2 * (16 * static_cast<unsigned>(surface) + look) + (glows ? 1 : 0);
+    }
+};
+
 struct Sources {
     std::string vertex;
     std::string fragment;
 };
 
-Sources sourcesFor(Surface surface, Output output, bool glows) {
-    const std::string head = std::string(gl::shaders::kVersion) + "#define SURFACE " +
-                             std::to_string(static_cast<int>(surface)) + "\n#define OUTPUT " +
-                             std::to_string(static_cast<int>(output)) + "\n#define GLOW " +
-                             (glows ? "1\n" : "0\n");
+Sources sourcesFor(const Variant& variant) {
+    std::string head(gl::shaders::kVersion);
+    const auto define = [&](const char* name, int value) {
+        head += std::string("#define ") + name + " " + std::to_string(value) + "\n";
+    };
+    define("SURFACE", static_cast<int>(variant.surface));
+    define("OUTPUT", static_cast<int>(variant.output));
+    define("CURVE", static_cast<int>(variant.curve));
+    define("GLOW", variant.glows ? 1 : 0);
     const auto join = [&](std::initializer_list<std::string_view> parts) {
         std::string source = head;
         for (const std::string_view part : parts) {
@@ -44,10 +61,11 @@ Sources sourcesFor(Surface surface, Output output, bool glows) {
         }
         return source;
     };
-    const bool isBackground = surface == Surface::background;
-    const std::string_view values = output == Output::values ? gl::shaders::kFalseColor : "";
-    const std::string_view tone =
-        output == Output::screen || (isBackground && output == Output::values) ? gl::shaders::kTone : "";
+    const bool isBackground = variant.surface == Surface::background;
+    const bool isForScreen =
+        variant.output == Output::screen || (isBackground && variant.output == Output::values);
+    const std::string_view values = variant.output == Output::values ? gl::shaders::kFalseColor : "";
+    const std::string_view tone = isForScreen ? gl::shaders::kTone : "";
     return isBackground
                ? Sources{join({gl::shaders::kBackgroundVertex}),
                          join({tone, gl::shaders::kBackgroundFragment})}
@@ -78,7 +96,6 @@ struct LitPass::Shader {
     GLint valueRange = program.uniformIfThere("valueRange");
     GLint isolineStep = program.uniformIfThere("isolineStep");
     GLint exposure = program.uniformIfThere("exposure");
-    GLint toneCurve = program.uniformIfThere("toneCurve");
     GLint glow = program.uniformIfThere("glow");
     GLint glowPart = program.uniformIfThere("glowPart");
     GLint glowScale = program.uniformIfThere("glowScale");
@@ -107,13 +124,15 @@ const LitPass::Shader& LitPass::surfaceShader(const LitView& view, const scene::
 }
 
 const LitPass::Shader& LitPass::shaderFor(unsigned surface, const LitView& view) {
-    const bool glows = view.output == Output::screen && view.glow.texture != 0;
-    const std::size_t index = 8 * surface + 2 * static_cast<std::size_t>(view.output) + (glows ? 1 : 0);
-    std::unique_ptr<Shader>& shader = shaders_[index];
+    Variant variant{static_cast<Surface>(surface), view.output};
+    if (view.output == Output::screen) {
+        variant.curve = view.curve;
+        variant.glows = view.glow.texture != 0;
+    }
+    std::unique_ptr<Shader>& shader = shaders_[variant.number()];
     if (shader == nullptr) {
-        const auto kind = static_cast<Surface>(surface);
-        shader = std::make_unique<Shader>(gl_, kind == Surface::background ? "background" : "lit",
-                                          sourcesFor(kind, view.output, glows));
+        const bool isBackground = variant.surface == Surface::background;
+        shader = std::make_unique<Shader>(gl_, isBackground ? "background" : "lit", sourcesFor(variant));
     }
     return *shader;
 }
@@ -124,7 +143,6 @@ void LitPass::setView(const Shader& shader, const LitView& view) const {
     gl_.Uniform1i(shader.reflectanceTexture, kReflectanceUnit);
     gl_.Uniform1i(shader.emissionTexture, kEmissionUnit);
     gl_.Uniform1f(shader.exposure, static_cast<GLfloat>(view.exposure));
-    gl_.Uniform1i(shader.toneCurve, static_cast<GLint>(view.curve));
     gl_.Uniform1i(shader.shown, view.isIlluminance ? 1 : 2);
     gl_.Uniform1i(shader.valueScale, static_cast<GLint>(view.scale));
     gl_.Uniform2f(shader.valueRange, static_cast<GLfloat>(view.range.least),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -81,9 +81,8 @@ class LitPass {
     Textures textures_;
     gl::Texture colorMap_;
     gl::VertexArray noVertices_;
-    /// By kind of surface (the last is the background), output, and whether there is a glow; made when
-    /// needed.
-    std::array<std::unique_ptr<Shader>, 4 * 4 * 2> shaders_;
+    /// By all that they were made for; made when first needed.
+    std::map<unsigned, std::unique_ptr<Shader>> shaders_;
     std::vector<Piece> pieces_;
     std::size_t drawnTriangles_ = 0;
 };
