@@ -10,7 +10,6 @@
 #include "core/cli/checkpointing.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
-#include "core/io/image_write.h"
 #include "core/io/lit_gltf.h"
 #include "viewer/app/camera_arguments.h"
 #include "viewer/app/choice.h"
@@ -18,6 +17,7 @@
 #include "viewer/app/floor.h"
 #include "viewer/app/look_arguments.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/picture_file.h"
 #include "viewer/app/picture_size.h"
 #include "viewer/app/screenshot.h"
 #include "viewer/app/sight.h"
@@ -116,6 +116,7 @@ image::Inspection inspectPixel(const solve::Problem& problem, const scene::Camer
 
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     cli::requireWritable(file);
+    checkPictureFile(file, arguments.look);
     if ((arguments.look.inspection.links || arguments.look.inspection.contributors) && !arguments.look.pick) {
         throw base::UsageError("--overlay links and --overlay contributors need the point of --pick X,Y");
     }
@@ -138,13 +139,17 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
     if (arguments.look.pick) {
         inspection = inspectPixel(solved->solver->problem(), camera, arguments.size, *arguments.look.pick);
     }
-    const std::vector<std::uint8_t> pixels =
-        drawPicture(*context, shown.scene, shown.snapshot, camera, arguments.size, arguments.look.draw,
-                    {inspection ? &*inspection : nullptr, arguments.look.inspection});
-    cli::writeOutput([&] {
-        io::writePng(file, static_cast<std::uint32_t>(arguments.size.width),
-                     static_cast<std::uint32_t>(arguments.size.height), pixels);
-    });
+    const auto& [scene, snapshot, solid] = shown;
+    if (isLightFile(file)) {
+        const std::vector<float> light =
+            drawLight(*context, scene, snapshot, camera, arguments.size, arguments.look.samples);
+        cli::writeOutput([&] { writeLight(file, arguments.size, light); });
+    } else {
+        const std::vector<std::uint8_t> pixels = drawPicture(
+            *context, scene, snapshot, camera, arguments.size, arguments.look.draw,
+            {inspection ? &*inspection : nullptr, arguments.look.inspection}, arguments.look.samples);
+        cli::writeOutput([&] { writePixels(file, arguments.size, pixels); });
+    }
     if (!solved) {
         return cli::ExitCode::success;
     }
@@ -228,9 +233,11 @@ cli::Command viewCommand() {
             const auto arguments = std::make_shared<ViewArguments>();
             cli::addSceneOptions(app, arguments->scene);
             addCameraOptions(app, arguments->camera);
-            app.add_option("--screenshot", arguments->screenshot,
-                           "Solve, write a picture and end, without a window.")
-                ->type_name("OUT.png")
+            app.add_option(
+                   "--screenshot", arguments->screenshot,
+                   "Solve, write a picture and end, without a window. A file named *.exr gets linear light "
+                   "in cd/m\u00b2.")
+                ->type_name("OUT.png|OUT.exr")
                 ->group("Picture");
             app.add_option_function<std::string>(
                    "--size", [arguments](const std::string& text) { arguments->size = parseSize(text); },
@@ -246,6 +253,7 @@ cli::Command viewCommand() {
                    "a display. By default egl, or osmesa where that cannot be had.")
                 ->type_name("auto|egl|osmesa|window")
                 ->group("Picture");
+            addPictureOptions(app, arguments->look);
             addLookOptions(app, arguments->look);
             cli::addSolverOptions(app, arguments->solver);
             cli::addOutputOptions(app, arguments->output);

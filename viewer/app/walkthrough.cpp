@@ -11,6 +11,8 @@
 #include "viewer/app/inspector.h"
 #include "viewer/app/mouse_look.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/picture_file.h"
+#include "viewer/app/sample_choice.h"
 #include "viewer/gl/render_target.h"
 #include "viewer/render/scene_renderer.h"
 #include "viewer/ui/imgui_context.h"
@@ -31,6 +33,8 @@ constexpr double kFollowingPart = 0.25;
 /// Seconds after the last movement when a software picture gets its smooth edges back.
 constexpr double kStandstill = 0.3;
 constexpr int kSamples = 4;
+/// Of a picture that is kept.
+constexpr int kKeptSamples = 8;
 /// Seconds between readings of the light meter.
 constexpr double kMeteringTime = 0.2;
 /// What the line of keys takes of the lower edge, at 96 dpi.
@@ -56,6 +60,7 @@ class Walkthrough {
     void takeKeys();
     bool move(double seconds);
     void meter();
+    void keepPicture(bool asLight);
     void drawScene();
     void drawInterface();
 
@@ -80,6 +85,7 @@ class Walkthrough {
     std::optional<ui::Legend> faceLegend_;
     bool isOverlayOld_ = true;
     Inspector inspector_;
+    SampleChoice sampleChoice_;
 
     double now_ = 0.0;
     double lastMove_ = -1.0;
@@ -105,8 +111,12 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit)
       walker_(exhibit.camera, exhibit.solid->bounds()),
       settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection},
       options_(exhibit.options.value_or(solve::Options{})),
+      sampleChoice_(kSamples, window.isSoftware()),
       now_(glfwGetTime()),
       floor_(exhibit.solid) {
+    if (exhibit.look.exposure) {
+        settings_.exposure = {false, 0.0, *exhibit.look.exposure};
+    }
     if (exhibit.options) {
         session_.emplace(session::solveWith(exhibit.solver), *exhibit.options, [] { glfwPostEmptyEvent(); });
     } else {
@@ -228,6 +238,9 @@ void Walkthrough::takeKeys() {
         const bool isPicture = settings_.draw.shown == render::Shown::picture;
         settings_.draw.shown = isPicture ? render::Shown::illuminance : render::Shown::picture;
     }
+    if (ImGui::IsKeyPressed(GLFW_KEY_F12, false)) {
+        keepPicture(ImGui::GetIO().KeyShift);
+    }
     if (session_ && ImGui::IsKeyPressed(GLFW_KEY_P, false)) {
         isPaused_ = !isPaused_;
         session_->setPaused(isPaused_);
@@ -273,13 +286,47 @@ void Walkthrough::meter() {
     lastMetering_ = now_;
 }
 
+// Writes what is seen, without the panel, beside where the program was started; the title says where.
+void Walkthrough::keepPicture(bool asLight) {
+    const gl::PixelSize size = window_.framebufferSize();
+    if (size.width <= 0 || size.height <= 0) {
+        return;
+    }
+    const double aspect = static_cast<double>(size.width) / size.height;
+    const gl::RenderTarget target(window_.functions(), size, kKeptSamples,
+                                  asLight ? gl::PixelFormat::full : gl::PixelFormat::byte);
+    target.bind();
+    if (asLight) {
+        renderer_.drawLight(walker_.camera(), aspect);
+    } else {
+        render::DrawSettings look = settings_.draw;
+        look.exposure = settings_.exposure.exposure;
+        renderer_.draw(walker_.camera(), aspect, look);
+    }
+    target.resolve();
+    std::string message;
+    try {
+        const std::filesystem::path file =
+            freePictureName(std::filesystem::current_path(), exhibit_.scene->name, asLight ? ".exr" : ".png");
+        if (asLight) {
+            writeLight(file, size, target.readLight());
+        } else {
+            writePixels(file, size, target.readRgb());
+        }
+        message = file.string();
+    } catch (const std::exception& error) {
+        message = error.what();
+    }
+    glfwSetWindowTitle(window_.window(), ("Fluxwalk - " + message).c_str());
+}
+
 void Walkthrough::drawScene() {
     const gl::PixelSize size = window_.framebufferSize();
     if (size.width <= 0 || size.height <= 0) {
         return;
     }
-    const bool mustBeQuick = window_.isSoftware() && now_ - lastMove_ < kStandstill;
-    const int samples = settings_.smoothEdges && !mustBeQuick ? kSamples : 1;
+    const bool isMoving = now_ - lastMove_ < kStandstill;
+    const int samples = settings_.smoothEdges ? sampleChoice_.choose(isMoving) : 1;
     render::DrawSettings wanted = settings_.draw;
     wanted.exposure = settings_.exposure.exposure;
     const bool isSame =
@@ -377,6 +424,7 @@ void Walkthrough::step() {
     window_.swapBuffers();
     if (lastDraw_ == now_) {
         drawSeconds_ = glfwGetTime() - start;
+        sampleChoice_.report(target_->samples(), drawSeconds_);
     }
 }
 
