@@ -56,8 +56,9 @@ std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_pt
             if (inspected.inspection != nullptr) {
                 ui::drawInspection(*inspected.inspection, *scene, camera, inspected.view, canvas);
             }
-            if (legend) {
-                ui::drawLegend(*legend, canvas);
+            const float width = legend ? ui::drawLegend(*legend, canvas) : 0.0f;
+            if (inspected.inspection != nullptr && inspected.view.visibility) {
+                ui::drawLegend(ui::makeVisibilityLegend(renderer.colorMap()), canvas, width);
             }
         });
     }

@@ -95,7 +95,7 @@ std::unique_ptr<gl::Context> makeContext(GlChoice choice) {
 void requireNoSolution(const LookArguments& look) {
     if (look.pick || !(detailFor(look.draw) == solve::Detail{})) {
         throw base::UsageError(
-            "a lit file has no elements and links: --pick, --overlay, --show level and --show residual need "
+            "a lit file has no elements and links: --pick, --overlay, --show level, residual and errors need "
             "a "
             "scene that is solved (with --resume FILE, from a checkpoint)");
     }
@@ -117,8 +117,9 @@ image::Inspection inspectPixel(const solve::Problem& problem, const scene::Camer
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     cli::requireWritable(file);
     checkPictureFile(file, arguments.look);
-    if ((arguments.look.inspection.links || arguments.look.inspection.contributors) && !arguments.look.pick) {
-        throw base::UsageError("--overlay links and --overlay contributors need the point of --pick X,Y");
+    const ui::InspectionView& view = arguments.look.inspection;
+    if ((view.links || view.contributors || view.visibility) && !arguments.look.pick) {
+        throw base::UsageError("--overlay links, contributors and visibility need the point of --pick X,Y");
     }
     // All that can fail before the solving, which may take long.
     const std::unique_ptr<gl::Context> context = makeContext(arguments.gl);
@@ -188,7 +189,8 @@ cli::ExitCode openWindow(const ViewArguments& arguments, gl::WindowContext& wind
     exhibit.camera = cameraFor(arguments, shown);
     exhibit.look = arguments.look.draw;
     exhibit.inspection = arguments.look.inspection;
-    exhibit.isProbing = exhibit.inspection.links || exhibit.inspection.contributors;
+    exhibit.isProbing =
+        exhibit.inspection.links || exhibit.inspection.contributors || exhibit.inspection.visibility;
     exhibit.scene = shown.scene;
     if (!exhibit.options) {
         exhibit.lit = std::make_shared<const solve::Snapshot>(std::move(shown.snapshot));

@@ -368,11 +368,16 @@ void Walkthrough::drawInterface() {
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
     inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse);
     const ui::Canvas canvas{scale, kKeysHeight * scale};
+    float legendWidth = 0.0f;
     if (faceLegend_) {
-        ui::drawLegend(*faceLegend_, canvas);
+        legendWidth = ui::drawLegend(*faceLegend_, canvas);
     } else if (settings_.draw.shown == render::Shown::illuminance ||
                settings_.draw.shown == render::Shown::luminance) {
-        ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), canvas);
+        legendWidth =
+            ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), canvas);
+    }
+    if (settings_.isProbing && settings_.inspection.visibility && inspector_.inspection() != nullptr) {
+        ui::drawLegend(ui::makeVisibilityLegend(renderer_.colorMap()), canvas, legendWidth);
     }
     ui::drawKeys(mouse_.isCaptured(), walker_.movement, scale);
     if (session_ && actions.changedOptions) {

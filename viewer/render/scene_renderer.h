@@ -20,7 +20,8 @@ enum class Shown : std::uint8_t {
     luminance = 2,
     level,  ///< of the elements, as colours of the overlay's faces, as all below
     residual,
-    objects
+    objects,
+    linkErrors
 };
 
 /// Whether faces of the overlay are shown instead of the light.
