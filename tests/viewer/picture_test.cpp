@@ -160,7 +160,8 @@ TEST_F(OneQuad, ShaderAgreesWithToneCurveInCpp) {
     const base::Rgb luminance =
         (scene_->materials[0].reflectance * irradiance + scene_->materials[0].emission) /
         static_cast<float>(base::kPi);
-    for (const ToneCurve curve : {ToneCurve::linear, ToneCurve::filmic, ToneCurve::reinhard}) {
+    for (const ToneCurve curve :
+         {ToneCurve::linear, ToneCurve::filmic, ToneCurve::reinhard, ToneCurve::hue}) {
         for (const double exposure : {0.0, 1e-5, 1e-3, 0.004, 0.01, 0.05, 1.0}) {
             const Pixel drawn = drawCenter(exposure, curve);
             const base::Rgb wanted = applyToneCurve(luminance * static_cast<float>(exposure), curve);

@@ -65,6 +65,7 @@ namespace fluxwalk::gl {
     X(GETSHADERIV, GetShaderiv)                                       \
     X(GETSTRING, GetString)                                           \
     X(GETSTRINGI, GetStringi)                                         \
+    X(GETTEXIMAGE, GetTexImage)                                       \
     X(GETUNIFORMLOCATION, GetUniformLocation)                         \
     X(LINKPROGRAM, LinkProgram)                                       \
     X(PIXELSTOREI, PixelStorei)                                       \

@@ -117,7 +117,7 @@ void drawVisibility(ImDrawList& list, const image::Inspection& inspection, const
     });
     for (const image::Connection& link : links) {
         const render::Color8& c = map.at(static_cast<double>(link.visibility));
-        project.line(list, inspection.center, link.source, IM_COL32(c[0], c[1], c[2], 220), 1.6f * scale);
+        project.line(list, inspection.center, link.source, IM_COL32(c[0], c[1], c[2], 170), 1.2f * scale);
     }
 }
 
