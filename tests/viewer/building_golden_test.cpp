@@ -39,7 +39,7 @@ std::vector<Case> allCases() {
 TEST(BuildingPictures, LookAsTheyShouldAndTheSameByEgl) {
     solve::Options options;
     options.error = 1.0;
-    const std::shared_ptr<const scene::Scene> scene = scene::buildScene("building:10000");
+    const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene("building:10000"));
     solve::Solver solver(scene, options, 0);
     solver.solve({});
     ASSERT_FALSE(scene->cameras.empty());
