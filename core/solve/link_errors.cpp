@@ -37,18 +37,9 @@ std::vector<float> computeLinkErrors(Problem& problem) {
             }
         }
     });
-    // Squares of what arrives at each node, in the order of the links.
-    const bool isIrradiance = problem.options.oracle == transport::OracleKind::bf;
+    // Squares of what ends at each node, in the order of the links.
     std::vector<float> squares(h.nodeCount(), 0.0f);
-    const auto add = [&](NodeId id, float error) {
-        const float area = h.shape(id).exposedArea();
-        const bool receives =
-            h.kind(id) == hierarchy::NodeKind::element || h.kind(id) == hierarchy::NodeKind::cluster;
-        if (receives && area > 0.0f) {
-            const float local = isIrradiance ? error : error * static_cast<float>(h.totalArea()) / area;
-            squares[base::index(id)] += local * local;
-        }
-    };
+    const auto add = [&](NodeId id, float error) { squares[base::index(id)] += error * error; };
     for (std::size_t i = 0; i < links.size(); ++i) {
         add(links[i].a, errors[i]);
         if (links[i].a != links[i].b) {

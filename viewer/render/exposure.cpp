@@ -8,7 +8,7 @@
 namespace fluxwalk::render {
 namespace {
 
-constexpr double kBrightPart = 0.8;
+constexpr double kBrightPart = 0.85;
 /// Where the bright surfaces come to lie; 1 is white for the linear curve.
 constexpr double kBrightLevel = 0.85;
 constexpr double kWhitePerExposureValue = 1.2;

@@ -43,7 +43,7 @@ MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& mat
 /// Emission in lm/m2 that leaves this side: the front, or both if the material is doubleSided.
 base::Rgb emissionOfSide(const scene::LitMesh& mesh, const scene::Material& material);
 
-/// Exposure per cd/m2 that shows the bright surfaces (80 % of the area is darker) just below white. Goes by
+/// Exposure per cd/m2 that shows the bright surfaces (85 % of the area is darker) just below white. Goes by
 /// the emitting sides where nothing else is lit, and is 1 where nothing is.
 double automaticExposure(const LuminanceHistogram& reflecting, const LuminanceHistogram& emitting);
 

@@ -14,7 +14,7 @@ namespace {
 /// Shape without light.
 constexpr float kRelief = 0.55f;
 /// Triangles that are looked at to find the range of values.
-constexpr std::size_t kTrianglesOfRange = 200000;
+constexpr std::size_t kTrianglesOfRange = 1000000;
 
 /// Puts the bound target and its viewport back.
 class BoundTarget {
