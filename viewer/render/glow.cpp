@@ -10,8 +10,9 @@ namespace {
 
 /// Of the light that eyes scatter: a tenth in age, less in youth (Vos 1984); pictures bear half of it.
 constexpr float kPart = 0.05f;
-/// Of each level that is taken from the wider ones.
-constexpr float kFromWider = 0.62f;
+/// Of the light, what the widest level leaves to finer ones, and each of these again; the finest takes the
+/// rest. So the glow of small pictures, which have fewer levels, is as wide as that of large ones.
+constexpr float kToFiner = 0.75f;
 constexpr int kLeastHeight = 48;
 constexpr int kMostHeight = 270;
 /// Pixels of the widest level's height: what it blurs reaches over a good part of the picture.
@@ -71,8 +72,11 @@ GlowLayer Glow::finish() {
     gl_.Enable(GL_BLEND);
     gl_.BlendEquation(GL_FUNC_ADD);
     gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    float left = kToFiner;
     for (std::size_t i = levels_.size() - 1; i > 0; --i) {
-        filter(*levels_[i], *levels_[i - 1], 0.5f, kFromWider);
+        const float wider = 1.0f - left;
+        left = i > 1 ? left * kToFiner : 0.0f;
+        filter(*levels_[i], *levels_[i - 1], 0.5f, wider / (1.0f - left));
     }
     gl_.Disable(GL_BLEND);
     gl_.BindVertexArray(0);
