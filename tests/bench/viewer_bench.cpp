@@ -27,9 +27,9 @@ const scene::LitMeshes& galleryMeshes(const std::shared_ptr<const scene::Scene>&
     const auto [found, isNew] = known.try_emplace(thousands);
     if (isNew) {
         solve::Options options;
-        options.error = thousands > 100 ? 0.3 : 1.0;
-        options.threshold = thousands > 100 ? 0.0 : 400.0;
-        options.displayAngle = thousands > 100 ? 2.4 : 20.0;
+        options.error = thousands > 300 ? 0.3 : 1.0;
+        options.threshold = thousands > 300 ? 0.0 : 400.0;
+        options.displayAngle = thousands > 300 ? 2.4 : 20.0;
         solve::Solver solver(scene, options, 0);
         solver.solve({});
         found->second = solver.litMeshes();
@@ -103,8 +103,8 @@ BENCHMARK_DEFINE_F(Drawing, frame)(benchmark::State& state) {
 }
 BENCHMARK_REGISTER_F(Drawing, frame)
     ->ArgNames({"thousands", "samples"})
-    ->Args({100, 1})
-    ->Args({100, 4})
+    ->Args({300, 1})
+    ->Args({300, 4})
     ->Args({1000, 1})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
@@ -122,7 +122,7 @@ BENCHMARK_DEFINE_F(Drawing, metering)(benchmark::State& state) {
 }
 BENCHMARK_REGISTER_F(Drawing, metering)
     ->ArgNames({"thousands"})
-    ->Arg(100)
+    ->Arg(300)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
@@ -146,7 +146,7 @@ BENCHMARK_DEFINE_F(Drawing, frameWithoutDrawing)(benchmark::State& state) {
 }
 BENCHMARK_REGISTER_F(Drawing, frameWithoutDrawing)
     ->ArgNames({"thousands"})
-    ->Arg(100)
+    ->Arg(300)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
@@ -188,13 +188,13 @@ BENCHMARK_DEFINE_F(Drawing, sendAll)(benchmark::State& state) {
 }
 BENCHMARK_REGISTER_F(Drawing, sendLight)
     ->ArgNames({"thousands"})
-    ->Arg(100)
+    ->Arg(300)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
 BENCHMARK_REGISTER_F(Drawing, sendAll)
     ->ArgNames({"thousands"})
-    ->Arg(100)
+    ->Arg(300)
     ->Arg(1000)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
