@@ -149,9 +149,10 @@ void drawRoundness(solve::Options& options, PanelActions& actions) {
 
 void drawExposure(ViewSettings& settings) {
     ExposureControl& control = settings.exposure;
-    beginRow("Exposure",
-             "Automatic: the brightest seventh of what is seen, most of it in the middle, is shown just below "
-             "white. Switched off, the exposure stays as it is.");
+    beginRow(
+        "Exposure",
+        "Automatic: the brightest seventh of what is seen, most of it in the middle, is shown just below "
+        "white. Switched off, the exposure stays as it is.");
     ImGui::Checkbox("automatic##exposure", &control.isAutomatic);
     beginRow("", "");
     if (control.isAutomatic) {
