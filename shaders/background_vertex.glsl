@@ -1,4 +1,4 @@
-// One triangle over the whole picture, with the direction that each pixel looks in.
+// One triangle over the whole picture, behind everything, with the direction that each pixel looks in.
 
 uniform mat4 worldFromClip;
 uniform vec3 eye;

@@ -46,7 +46,8 @@ std::vector<std::uint32_t> findEdges(const scene::LitMesh& mesh,
 }  // namespace
 
 MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh,
-                              const display::CellTable& table, const std::vector<float>& residuals) {
+                              const display::CellTable& table, const std::vector<float>& residuals,
+                              const std::vector<float>& errors) {
     const hierarchy::Hierarchy& h = problem.hierarchy;
     MeshElements result;
     result.elementOf.resize(mesh.triangles.size() / 3);
@@ -66,6 +67,9 @@ MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh
                 result.level.push_back(static_cast<std::uint8_t>(level));
                 if (!residuals.empty()) {
                     result.residual.push_back(residuals[base::index(leaf)]);
+                }
+                if (!errors.empty()) {
+                    result.error.push_back(errors[base::index(leaf)]);
                 }
             }
             const auto element = static_cast<std::uint32_t>(result.level.size() - 1);

@@ -17,6 +17,7 @@ struct Detail {
     bool elements = false;
     bool residuals = false;  ///< with the elements; costs a sweep
     bool clusters = false;
+    bool errors = false;  ///< of their links, with the elements
 
     bool operator==(const Detail&) const = default;
 };
@@ -29,6 +30,8 @@ struct MeshElements {
     /// By element: what one more sweep would change of its radiosity, lm/m2, mean of the channels; empty
     /// unless asked for.
     std::vector<float> residual;
+    /// By element: the error that its links leave, lux (link_errors.h); empty unless asked for.
+    std::vector<float> error;
 };
 
 /// Box of a cluster and how far it is below the root.
@@ -38,10 +41,11 @@ struct ClusterBox {
     std::uint32_t depth = 0;
 };
 
-/// The elements of one side of an object, shown as `mesh` with the cells of `table`. `residuals` by node, or
-/// empty.
+/// The elements of one side of an object, shown as `mesh` with the cells of `table`. `residuals` and `errors`
+/// by node, or empty.
 MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh,
-                              const display::CellTable& table, const std::vector<float>& residuals);
+                              const display::CellTable& table, const std::vector<float>& residuals,
+                              const std::vector<float>& errors = {});
 
 /// By node: what one more sweep would change of the radiosity of leaves, lm/m2; 0 for other nodes. Leaves the
 /// problem as it was.

@@ -1,5 +1,7 @@
 #include "core/solve/publisher.h"
 
+#include "core/solve/link_errors.h"
+
 namespace fluxwalk::solve {
 
 std::shared_ptr<const Snapshot> Publisher::make(const Detail& detail, bool isFinished) {
@@ -9,15 +11,16 @@ std::shared_ptr<const Snapshot> Publisher::make(const Detail& detail, bool isFin
     snapshot->statistics = problem_.statistics;
     snapshot->finished = isFinished;
     snapshot->lighting = problem_.hierarchy.lighting();
-    if (detail.elements || detail.residuals) {
+    if (detail.elements || detail.residuals || detail.errors) {
         const std::vector<float> residuals =
             detail.residuals ? computeResiduals(problem_) : std::vector<float>{};
+        const std::vector<float> errors = detail.errors ? computeLinkErrors(problem_) : std::vector<float>{};
         const std::vector<const display::CellTable*> tables = display_.tables();
         snapshot->elements.resize(snapshot->meshes.size());
         problem_.executor.forRange(tables.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 snapshot->elements[i] = std::make_shared<const MeshElements>(
-                    describeElements(problem_, *snapshot->meshes[i], *tables[i], residuals));
+                    describeElements(problem_, *snapshot->meshes[i], *tables[i], residuals, errors));
             }
         });
     }

@@ -48,6 +48,7 @@ const std::vector<Library> kLibraries = {
     {"OpenSubdiv", {"opensubdiv/"}, {"core/surface"}},
     {"tinygltf", {"tiny_gltf.h"}, {"core/io"}},
     {"HDF5", {"hdf5", "H5"}, {"core/io"}},
+    {"OpenEXR", {"OpenEXR/", "Imath/"}, {"core/io"}},
     {"stb", {"stb/", "stb_"}, {"core/io"}},
     {"TBB", {"tbb/", "oneapi/tbb"}, {"core/base"}},
     {"threads", {"thread", "future", "condition_variable"}, {"core/base", "viewer"}},

@@ -160,7 +160,8 @@ TEST_F(OneQuad, ShaderAgreesWithToneCurveInCpp) {
     const base::Rgb luminance =
         (scene_->materials[0].reflectance * irradiance + scene_->materials[0].emission) /
         static_cast<float>(base::kPi);
-    for (const ToneCurve curve : {ToneCurve::linear, ToneCurve::filmic, ToneCurve::reinhard}) {
+    for (const ToneCurve curve :
+         {ToneCurve::linear, ToneCurve::filmic, ToneCurve::reinhard, ToneCurve::hue}) {
         for (const double exposure : {0.0, 1e-5, 1e-3, 0.004, 0.01, 0.05, 1.0}) {
             const Pixel drawn = drawCenter(exposure, curve);
             const base::Rgb wanted = applyToneCurve(luminance * static_cast<float>(exposure), curve);
@@ -230,9 +231,12 @@ TEST_F(OneQuad, SendsOnlyWhatChanged) {
     EXPECT_EQ(renderer.setMeshes({a, b}), 2u);
     EXPECT_EQ(renderer.triangleCount(), 4u);
     EXPECT_EQ(renderer.setMeshes({a, b}), 0u);
+    // Another array with the same content is on the GPU already.
     const auto c = std::make_shared<const scene::LitMesh>(mesh_);
-    EXPECT_EQ(renderer.setMeshes({c, b}), 1u);
+    EXPECT_EQ(renderer.setMeshes({c, b}), 0u);
     EXPECT_EQ(a.use_count(), 1);  // let go
+    mesh_.irradiance[2] += 1.0f;
+    EXPECT_EQ(renderer.setMeshes({std::make_shared<const scene::LitMesh>(mesh_), b}), 1u);
     EXPECT_EQ(renderer.setMeshes({}), 0u);
     EXPECT_TRUE(renderer.bounds().isEmpty());
     EXPECT_EQ(context_->functions().GetError(), static_cast<GLenum>(GL_NO_ERROR));

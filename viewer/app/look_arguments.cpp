@@ -13,17 +13,19 @@ using render::ValueScale;
 
 constexpr const char* kGroup = "Seeing why";
 constexpr double kLargestValue = 1e9;
-constexpr Choices<Shown, 6> kShown{{{"picture", Shown::picture},
+constexpr Choices<Shown, 7> kShown{{{"picture", Shown::picture},
                                     {"lux", Shown::illuminance},
                                     {"luminance", Shown::luminance},
                                     {"level", Shown::level},
                                     {"residual", Shown::residual},
-                                    {"objects", Shown::objects}}};
-enum class OverlayName : std::uint8_t { elements, clusters, links, contributors };
-constexpr Choices<OverlayName, 4> kOverlays{{{"elements", OverlayName::elements},
+                                    {"objects", Shown::objects},
+                                    {"errors", Shown::linkErrors}}};
+enum class OverlayName : std::uint8_t { elements, clusters, links, contributors, visibility };
+constexpr Choices<OverlayName, 5> kOverlays{{{"elements", OverlayName::elements},
                                              {"clusters", OverlayName::clusters},
                                              {"links", OverlayName::links},
-                                             {"contributors", OverlayName::contributors}}};
+                                             {"contributors", OverlayName::contributors},
+                                             {"visibility", OverlayName::visibility}}};
 constexpr unsigned kDeepestCluster = 64;
 
 void setOverlay(LookArguments& look, const std::string& name) {
@@ -39,6 +41,9 @@ void setOverlay(LookArguments& look, const std::string& name) {
             return;
         case OverlayName::contributors:
             look.inspection.contributors = true;
+            return;
+        case OverlayName::visibility:
+            look.inspection.visibility = true;
             return;
     }
 }
@@ -79,8 +84,10 @@ void addLookOptions(CLI::App& app, LookArguments& look) {
            "What is seen: the picture, or as colours with a legend the light that arrives (lux) or the "
            "brightness of the surfaces (luminance, in cd/m\u00b2), how often elements are quartered (level), "
            "what "
-           "a further sweep would change (residual), or each object in a colour of its own.")
-        ->type_name("picture|lux|luminance|level|residual|objects")
+           "a further sweep would change (residual), each object in a colour of its own, or the error in lux "
+           "that "
+           "the links of each element leave in its light (errors).")
+        ->type_name("picture|lux|luminance|level|residual|objects|errors")
         ->group(kGroup);
     app.add_option_function<std::string>(
            "--scale",
@@ -107,10 +114,10 @@ void addLookOptions(CLI::App& app, LookArguments& look) {
                }
            },
            "What is drawn over it, names with commas between: edges of the elements, boxes of the clusters; "
-           "of the point of --pick the links of its element (wider lines carry more light) and a list of "
-           "what lights it.")
+           "of the point of --pick the links of its element (wider lines carry more light), a list of "
+           "what lights it, and its links by how much of each is not blocked (visibility).")
         ->delimiter(',')
-        ->type_name("elements,clusters,links,contributors")
+        ->type_name("elements,clusters,links,contributors,visibility")
         ->group(kGroup);
     app.add_option_function<std::string>(
            "--cluster-level",

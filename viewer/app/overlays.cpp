@@ -15,8 +15,8 @@ class ElementColors {
         : shown_(shown), map_(map) {
         if (shown == Shown::level) {
             prepareLevels(snapshot);
-        } else if (shown == Shown::residual) {
-            prepareResiduals(snapshot);
+        } else {
+            prepareValues(snapshot);
         }
     }
 
@@ -24,8 +24,12 @@ class ElementColors {
         if (shown_ == Shown::level) {
             return legend_.colors[elements.level[element]];
         }
-        return map_.at(render::placeOf(static_cast<double>(elements.residual[element]), range_,
+        return map_.at(render::placeOf(static_cast<double>(valuesOf(elements, shown_)[element]), range_,
                                        render::ValueScale::logarithmic));
+    }
+    /// Of each element; empty where the snapshot does not tell.
+    static const std::vector<float>& valuesOf(const solve::MeshElements& elements, Shown shown) {
+        return shown == Shown::linkErrors ? elements.error : elements.residual;
     }
     const ui::Legend& legend() const { return legend_; }
 
@@ -45,15 +49,15 @@ class ElementColors {
             legend_.marks.push_back({place, std::to_string(i), false});
         }
     }
-    void prepareResiduals(const solve::Snapshot& snapshot) {
+    void prepareValues(const solve::Snapshot& snapshot) {
         render::LuminanceHistogram values;
         for (const auto& elements : snapshot.elements) {
-            for (const float residual : elements->residual) {
-                values.add(static_cast<double>(residual), 1.0);
+            for (const float value : valuesOf(*elements, shown_)) {
+                values.add(static_cast<double>(value), 1.0);
             }
         }
         range_ = render::chooseRange(values, render::ValueScale::logarithmic);
-        legend_ = ui::makeLegend({{}, {}, Shown::residual}, range_, map_);
+        legend_ = ui::makeLegend({{}, {}, shown_}, range_, map_);
     }
 
     Shown shown_;
@@ -72,7 +76,9 @@ Color8 colorOfObject(std::uint32_t object) {
 
 solve::Detail detailFor(const render::DrawSettings& look) {
     solve::Detail detail;
-    detail.elements = look.elementEdges || look.shown == Shown::level || look.shown == Shown::residual;
+    detail.elements = look.elementEdges || look.shown == Shown::level || look.shown == Shown::residual ||
+                      look.shown == Shown::linkErrors;
+    detail.errors = look.shown == Shown::linkErrors;
     detail.residuals = look.shown == Shown::residual;
     detail.clusters = look.clusterBoxes;
     return detail;
@@ -81,11 +87,13 @@ solve::Detail detailFor(const render::DrawSettings& look) {
 std::optional<ui::Legend> fillOverlay(render::Overlay& overlay, const solve::Snapshot& snapshot,
                                       const render::DrawSettings& look, const render::ColorMap& map) {
     const bool hasElements = snapshot.elements.size() == snapshot.meshes.size();
-    const bool hasResiduals =
-        hasElements && std::any_of(snapshot.elements.begin(), snapshot.elements.end(),
-                                   [](const auto& elements) { return !elements->residual.empty(); });
-    const bool colorsElements =
-        hasElements && (look.shown == Shown::level || (look.shown == Shown::residual && hasResiduals));
+    const bool isValue = look.shown == Shown::residual || look.shown == Shown::linkErrors;
+    const bool hasValues =
+        isValue && hasElements &&
+        std::any_of(snapshot.elements.begin(), snapshot.elements.end(), [&](const auto& elements) {
+            return !ElementColors::valuesOf(*elements, look.shown).empty();
+        });
+    const bool colorsElements = hasElements && (look.shown == Shown::level || hasValues);
     std::optional<ElementColors> colors;
     if (colorsElements) {
         colors.emplace(snapshot, look.shown, map);

@@ -14,7 +14,6 @@
 namespace fluxwalk::app {
 namespace {
 
-constexpr int kSamples = 8;
 /// Height of a picture whose text has the size of a window's at 96 dpi; smaller ones keep it legible.
 constexpr float kPlainHeight = 720.0f;
 constexpr float kLeastScale = 0.75f;
@@ -40,9 +39,9 @@ void drawOver(const gl::Functions& gl, gl::PixelSize size,
 std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_ptr<const scene::Scene>& scene,
                                       const solve::Snapshot& snapshot, const scene::Camera& camera,
                                       gl::PixelSize size, const render::DrawSettings& look,
-                                      const Inspected& inspected) {
+                                      const Inspected& inspected, int samples) {
     const gl::Functions& gl = context.functions();
-    const gl::RenderTarget target(gl, size, kSamples);
+    const gl::RenderTarget target(gl, size, samples);
     render::SceneRenderer renderer(gl, scene);
     renderer.setMeshes(snapshot.meshes, snapshot.lighting);
     std::optional<ui::Legend> legend = fillOverlay(renderer.overlay(), snapshot, look, renderer.colorMap());
@@ -57,12 +56,26 @@ std::vector<std::uint8_t> drawPicture(gl::Context& context, const std::shared_pt
             if (inspected.inspection != nullptr) {
                 ui::drawInspection(*inspected.inspection, *scene, camera, inspected.view, canvas);
             }
-            if (legend) {
-                ui::drawLegend(*legend, canvas);
+            const float width = legend ? ui::drawLegend(*legend, canvas) : 0.0f;
+            if (inspected.inspection != nullptr && inspected.view.visibility) {
+                ui::drawLegend(ui::makeVisibilityLegend(renderer.colorMap()), canvas, width);
             }
         });
     }
     return target.readRgb();
+}
+
+std::vector<float> drawLight(gl::Context& context, const std::shared_ptr<const scene::Scene>& scene,
+                             const solve::Snapshot& snapshot, const scene::Camera& camera, gl::PixelSize size,
+                             int samples) {
+    const gl::Functions& gl = context.functions();
+    const gl::RenderTarget target(gl, size, samples, gl::PixelFormat::full);
+    render::SceneRenderer renderer(gl, scene);
+    renderer.setMeshes(snapshot.meshes, snapshot.lighting);
+    target.bind();
+    renderer.drawLight(camera, static_cast<double>(size.width) / size.height);
+    target.resolve();
+    return target.readLight();
 }
 
 }  // namespace fluxwalk::app

@@ -47,9 +47,11 @@ class Tour {
     /// Messages and the help.
     void draw(double now, float scale);
 
-  private:
+    /// Tells what was done, or what is wrong, for some seconds.
     void say(const std::string& text, double now);
     void complain(const std::string& text, double now);
+
+  private:
     bool takeKeys(const Frame& frame);
     bool orbit(const Frame& frame);
     std::optional<Floor::Met> pick(const Frame& frame) const;

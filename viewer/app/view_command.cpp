@@ -11,7 +11,6 @@
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
 #include "core/cli/values.h"
-#include "core/io/image_write.h"
 #include "core/io/lit_gltf.h"
 #include "core/io/visitor_files.h"
 #include "viewer/app/camera_arguments.h"
@@ -20,6 +19,7 @@
 #include "viewer/app/floor.h"
 #include "viewer/app/look_arguments.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/picture_file.h"
 #include "viewer/app/picture_sequence.h"
 #include "viewer/app/picture_size.h"
 #include "viewer/app/screenshot.h"
@@ -101,7 +101,7 @@ std::unique_ptr<gl::Context> makeContext(GlChoice choice) {
 void requireNoSolution(const LookArguments& look) {
     if (look.pick || !(detailFor(look.draw) == solve::Detail{})) {
         throw base::UsageError(
-            "a lit file has no elements and links: --pick, --overlay, --show level and --show residual need "
+            "a lit file has no elements and links: --pick, --overlay, --show level, residual and errors need "
             "a "
             "scene that is solved (with --resume FILE, from a checkpoint)");
     }
@@ -144,8 +144,10 @@ std::vector<Shot> planShots(const ViewArguments& arguments, const std::filesyste
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     // A bad path or name is told before the solving, which may take long.
     cli::requireWritable(planShots(arguments, file, [] { return scene::Camera{}; }).front().file);
-    if ((arguments.look.inspection.links || arguments.look.inspection.contributors) && !arguments.look.pick) {
-        throw base::UsageError("--overlay links and --overlay contributors need the point of --pick X,Y");
+    checkPictureFile(file, arguments.look);
+    const ui::InspectionView& view = arguments.look.inspection;
+    if ((view.links || view.contributors || view.visibility) && !arguments.look.pick) {
+        throw base::UsageError("--overlay links, contributors and visibility need the point of --pick X,Y");
     }
     // All that can fail before the solving, which may take long.
     const std::unique_ptr<gl::Context> context = makeContext(arguments.gl);
@@ -169,13 +171,17 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
     }
     std::vector<std::string> files;
     for (const Shot& shot : shots) {
-        const std::vector<std::uint8_t> pixels = drawPicture(
-            *context, shown.scene, shown.snapshot, shot.camera, arguments.size, arguments.look.draw,
-            {inspection ? &*inspection : nullptr, arguments.look.inspection});
-        cli::writeOutput([&] {
-            io::writePng(shot.file, static_cast<std::uint32_t>(arguments.size.width),
-                         static_cast<std::uint32_t>(arguments.size.height), pixels);
-        });
+        const auto& [scene, snapshot, solid] = shown;
+        if (isLightFile(shot.file)) {
+            const std::vector<float> light =
+                drawLight(*context, scene, snapshot, shot.camera, arguments.size, arguments.look.samples);
+            cli::writeOutput([&] { writeLight(shot.file, arguments.size, light); });
+        } else {
+            const std::vector<std::uint8_t> pixels = drawPicture(
+                *context, scene, snapshot, shot.camera, arguments.size, arguments.look.draw,
+                {inspection ? &*inspection : nullptr, arguments.look.inspection}, arguments.look.samples);
+            cli::writeOutput([&] { writePixels(shot.file, arguments.size, pixels); });
+        }
         files.push_back(shot.file.string());
     }
     if (!solved) {
@@ -222,7 +228,8 @@ std::unique_ptr<Exhibit> makeExhibit(const ViewArguments& arguments) {
     exhibit->camera = cameraFor(arguments, shown);
     exhibit->look = arguments.look.draw;
     exhibit->inspection = arguments.look.inspection;
-    exhibit->isProbing = exhibit->inspection.links || exhibit->inspection.contributors;
+    exhibit->isProbing =
+        exhibit->inspection.links || exhibit->inspection.contributors || exhibit->inspection.visibility;
     exhibit->scene = shown.scene;
     if (!exhibit->options) {
         exhibit->lit = std::make_shared<const solve::Snapshot>(std::move(shown.snapshot));
@@ -295,9 +302,11 @@ cli::Command viewCommand() {
             const auto arguments = std::make_shared<ViewArguments>();
             cli::addSceneOptions(app, arguments->scene);
             addCameraOptions(app, arguments->camera);
-            app.add_option("--screenshot", arguments->screenshot,
-                           "Solve, write a picture and end, without a window.")
-                ->type_name("OUT.png")
+            app.add_option(
+                   "--screenshot", arguments->screenshot,
+                   "Solve, write a picture and end, without a window. A file named *.exr gets linear light "
+                   "in cd/m\u00b2.")
+                ->type_name("OUT.png|OUT.exr")
                 ->group("Picture");
             app.add_option_function<std::string>(
                    "--size", [arguments](const std::string& text) { arguments->size = parseSize(text); },
@@ -327,6 +336,7 @@ cli::Command viewCommand() {
                 ->type_name("N")
                 ->group("Picture");
             app.footer(ui::describeKeys());
+            addPictureOptions(app, arguments->look);
             addLookOptions(app, arguments->look);
             cli::addSolverOptions(app, arguments->solver);
             cli::addOutputOptions(app, arguments->output);

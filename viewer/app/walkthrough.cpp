@@ -11,12 +11,12 @@
 
 #include "viewer/app/floor.h"
 #include "viewer/app/inspector.h"
+#include "viewer/app/keep_picture.h"
 #include "viewer/app/mouse_look.h"
 #include "viewer/app/overlays.h"
+#include "viewer/app/seen_picture.h"
 #include "viewer/app/tapped_keys.h"
 #include "viewer/app/tour.h"
-#include "viewer/gl/render_target.h"
-#include "viewer/render/scene_renderer.h"
 #include "viewer/ui/imgui_context.h"
 #include "viewer/ui/imgui_renderer.h"
 #include "viewer/ui/legend.h"
@@ -34,7 +34,6 @@ constexpr int kSettlingFrames = 3;
 constexpr double kFollowingPart = 0.25;
 /// Seconds after the last movement when a software picture gets its smooth edges back.
 constexpr double kStandstill = 0.3;
-constexpr int kSamples = 4;
 /// What the line of keys takes of the lower edge, at 96 dpi.
 constexpr float kKeysHeight = 58.0f;
 /// A camera so many metres above a floor is a person who stands there and will want to walk.
@@ -60,15 +59,14 @@ class Walkthrough {
     void chooseMovement();
     void takeKeys();
     bool move(double seconds);
-    void drawScene();
+    void keepPicture(bool asLight);
     void drawInterface();
 
     gl::WindowContext& window_;
     const Exhibit& exhibit_;
     ui::ImguiContext imgui_;
     ui::ImguiRenderer imguiRenderer_;
-    render::SceneRenderer renderer_;
-    std::unique_ptr<gl::RenderTarget> target_;
+    SeenPicture picture_;
     MouseLook mouse_;
     TappedKeys tappedKeys_;
     ui::Walker walker_;
@@ -78,7 +76,6 @@ class Walkthrough {
     bool isPaused_ = false;
     bool hasChosenMovement_ = false;
     std::shared_ptr<const solve::Snapshot> shown_;
-    double automaticExposure_ = 0.0;
     /// Settings that the overlay was filled for.
     render::DrawSettings overlaid_;
     std::optional<ui::Legend> faceLegend_;
@@ -87,13 +84,8 @@ class Walkthrough {
 
     double now_ = 0.0;
     double lastMove_ = -1.0;
-    double lastDraw_ = 0.0;
-    double drawSeconds_ = 0.0;
-    double framesPerSecond_ = 0.0;
     int framesToSettle_ = kSettlingFrames;
-    bool needsDrawing_ = true;
     bool isAnimating_ = true;
-    render::DrawSettings drawn_;
     Floor floor_;
     Tour tour_;
     /// Last, so that the solver stops before anything it may wake goes.
@@ -105,7 +97,7 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, Scen
       exhibit_(exhibit),
       imgui_(window.contentScale(), window.window()),
       imguiRenderer_(window.functions()),
-      renderer_(window.functions(), exhibit.scene),
+      picture_(window, exhibit.scene),
       mouse_(window.window()),
       tappedKeys_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
@@ -116,6 +108,9 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, Scen
       floor_(exhibit.solid),
       tour_(window, exhibit, opener) {
     settings_.lights = ui::controlsOf(lights_, options_.lighting);
+    if (exhibit.look.exposure) {
+        settings_.exposure = {false, 0.0, *exhibit.look.exposure};
+    }
     if (exhibit.options) {
         session_ = std::make_unique<session::SolverSession>(session::solveWith(exhibit.solver),
                                                             *exhibit.options, [] { glfwPostEmptyEvent(); });
@@ -154,17 +149,16 @@ void Walkthrough::takeSnapshot() {
         return;
     }
     const bool mayWait = window_.isSoftware() && shown_ != nullptr && !newest->finished;
-    if (mayWait && now_ - lastDraw_ < drawSeconds_ / kFollowingPart) {
+    if (mayWait && now_ - picture_.lastDraw() < picture_.drawSeconds() / kFollowingPart) {
         return;
     }
     show(std::move(newest));
 }
 
 void Walkthrough::show(std::shared_ptr<const solve::Snapshot> snapshot) {
-    renderer_.setMeshes(snapshot->meshes, snapshot->lighting);
-    automaticExposure_ = renderer_.automaticExposure();
+    picture_.renderer().setMeshes(snapshot->meshes, snapshot->lighting);
+    picture_.renew();
     shown_ = std::move(snapshot);
-    needsDrawing_ = true;
     isOverlayOld_ = true;
 }
 
@@ -178,9 +172,10 @@ void Walkthrough::followOverlays() {
                         look.clusterBoxes == overlaid_.clusterBoxes &&
                         look.clusterDepth == overlaid_.clusterDepth;
     if (shown_ && (!isSame || isOverlayOld_)) {
-        faceLegend_ = fillOverlay(renderer_.overlay(), *shown_, look, renderer_.colorMap());
+        faceLegend_ =
+            fillOverlay(picture_.renderer().overlay(), *shown_, look, picture_.renderer().colorMap());
         isOverlayOld_ = false;
-        needsDrawing_ = true;
+        picture_.renew();
     }
     overlaid_ = look;
 }
@@ -247,6 +242,9 @@ void Walkthrough::takeKeys() {
         const bool isPicture = settings_.draw.shown == render::Shown::picture;
         settings_.draw.shown = isPicture ? render::Shown::illuminance : render::Shown::picture;
     }
+    if (ImGui::IsKeyPressed(GLFW_KEY_F12, false)) {
+        keepPicture(ImGui::GetIO().KeyShift);
+    }
     if (session_ && ImGui::IsKeyPressed(GLFW_KEY_P, false)) {
         isPaused_ = !isPaused_;
         session_->setPaused(isPaused_);
@@ -283,32 +281,17 @@ bool Walkthrough::move(double seconds) {
     return changed || input.ahead != 0.0 || input.right != 0.0 || input.up != 0.0;
 }
 
-void Walkthrough::drawScene() {
-    const gl::PixelSize size = window_.framebufferSize();
-    if (size.width <= 0 || size.height <= 0) {
-        return;
+void Walkthrough::keepPicture(bool asLight) {
+    render::DrawSettings look = settings_.draw;
+    look.exposure = settings_.exposure.exposure;
+    try {
+        const std::filesystem::path file = app::keepPicture(
+            window_.functions(), picture_.renderer(), {walker_.camera(), window_.framebufferSize(), look},
+            exhibit_.scene->name, asLight);
+        tour_.say(file.string(), now_);
+    } catch (const base::FileError& error) {
+        tour_.complain(error.what(), now_);
     }
-    const bool mustBeQuick = window_.isSoftware() && now_ - lastMove_ < kStandstill;
-    const int samples = settings_.smoothEdges && !mustBeQuick ? kSamples : 1;
-    render::DrawSettings wanted = settings_.draw;
-    wanted.exposure = settings_.exposure.exposure;
-    const bool isSame =
-        target_ && target_->size() == size && target_->samples() == samples && drawn_ == wanted;
-    if (isSame && !needsDrawing_) {
-        framesPerSecond_ = 0.0;
-        return;
-    }
-    if (!target_ || !(target_->size() == size) || target_->samples() != samples) {
-        target_.reset();
-        target_ = std::make_unique<gl::RenderTarget>(window_.functions(), size, samples);
-    }
-    target_->bind();
-    renderer_.draw(walker_.camera(), static_cast<double>(size.width) / size.height, wanted);
-    target_->resolve();
-    drawn_ = wanted;
-    needsDrawing_ = false;
-    framesPerSecond_ = lastDraw_ > 0.0 ? 1.0 / std::max(now_ - lastDraw_, 1e-3) : 0.0;
-    lastDraw_ = now_;
 }
 
 void Walkthrough::drawInterface() {
@@ -320,10 +303,14 @@ void Walkthrough::drawInterface() {
         info.session = session_->status();
     }
     info.isPaused = isPaused_;
-    info.triangleCount = renderer_.triangleCount();
-    info.framesPerSecond = framesPerSecond_;
+    render::SceneRenderer& renderer = picture_.renderer();
+    info.triangleCount = renderer.triangleCount();
+    info.framesPerSecond = picture_.framesPerSecond();
     info.renderer = window_.renderer();
-    info.shownRange = renderer_.rangeOf(settings_.draw);
+    if (settings_.draw.shown == render::Shown::illuminance ||
+        settings_.draw.shown == render::Shown::luminance) {
+        info.shownRange = renderer.rangeOf(settings_.draw);
+    }
     info.places = tour_.places();
     info.lights = lights_;
     const double fov = walker_.verticalFov();
@@ -331,11 +318,16 @@ void Walkthrough::drawInterface() {
     inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse &&
             !tour_.isOrbiting());
     const ui::Canvas canvas{scale, kKeysHeight * scale};
+    float legendWidth = 0.0f;
     if (faceLegend_) {
-        ui::drawLegend(*faceLegend_, canvas);
+        legendWidth = ui::drawLegend(*faceLegend_, canvas);
     } else if (settings_.draw.shown == render::Shown::illuminance ||
                settings_.draw.shown == render::Shown::luminance) {
-        ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer_.colorMap()), canvas);
+        legendWidth =
+            ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer.colorMap()), canvas);
+    }
+    if (settings_.isProbing && settings_.inspection.visibility && inspector_.inspection() != nullptr) {
+        ui::drawLegend(ui::makeVisibilityLegend(renderer.colorMap()), canvas, legendWidth);
     }
     ui::drawKeys(mouse_.isCaptured(), walker_.movement, scale);
     if (session_ && actions.changedOptions) {
@@ -353,7 +345,9 @@ void Walkthrough::drawInterface() {
     }
     const bool isElsewhere = tour_.act(actions.places, {walker_, floor_, now_, false, mouse_.isCaptured()});
     tour_.draw(now_, scale);
-    needsDrawing_ |= actions.camera >= 0 || isElsewhere || fov != walker_.verticalFov();
+    if (actions.camera >= 0 || isElsewhere || fov != walker_.verticalFov()) {
+        picture_.renew();
+    }
 }
 
 void Walkthrough::step() {
@@ -371,26 +365,24 @@ void Walkthrough::step() {
     const bool isMoving = move(seconds);
     if (isMoving) {
         lastMove_ = now_;
-        needsDrawing_ = true;
+        picture_.renew();
     }
     tour_.record({walker_, floor_, now_});
     drawInterface();
     followOverlays();
     ImGui::Render();
-    const bool isAdapting =
-        automaticExposure_ > 0.0 && settings_.exposure.follow(automaticExposure_, seconds);
+    const bool isAdapting = picture_.adapt(walker_.camera(), settings_.exposure, now_, seconds);
     isAnimating_ = isMoving || isAdapting || now_ - lastMove_ < kStandstill;
 
     const double start = glfwGetTime();
-    drawScene();
-    if (target_) {
-        target_->copyToWindow();
+    render::DrawSettings look = settings_.draw;
+    look.exposure = settings_.exposure.exposure;
+    picture_.draw({walker_.camera(), look, settings_.smoothEdges, now_ - lastMove_ < kStandstill}, now_);
+    if (picture_.copyToWindow()) {
         imguiRenderer_.draw(*ImGui::GetDrawData());
     }
     window_.swapBuffers();
-    if (lastDraw_ == now_) {
-        drawSeconds_ = glfwGetTime() - start;
-    }
+    picture_.report(glfwGetTime() - start, now_);
 }
 
 }  // namespace

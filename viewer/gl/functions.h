@@ -22,6 +22,7 @@ namespace fluxwalk::gl {
     X(BLENDFUNCSEPARATE, BlendFuncSeparate)                           \
     X(BLITFRAMEBUFFER, BlitFramebuffer)                               \
     X(BUFFERDATA, BufferData)                                         \
+    X(BUFFERSUBDATA, BufferSubData)                                   \
     X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                 \
     X(CLEAR, Clear)                                                   \
     X(CLEARCOLOR, ClearColor)                                         \
@@ -40,12 +41,15 @@ namespace fluxwalk::gl {
     X(DEPTHMASK, DepthMask)                                           \
     X(DETACHSHADER, DetachShader)                                     \
     X(DISABLE, Disable)                                               \
+    X(DISABLEVERTEXATTRIBARRAY, DisableVertexAttribArray)             \
     X(DRAWARRAYS, DrawArrays)                                         \
     X(DRAWELEMENTS, DrawElements)                                     \
     X(DRAWELEMENTSBASEVERTEX, DrawElementsBaseVertex)                 \
     X(ENABLE, Enable)                                                 \
     X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)               \
+    X(FINISH, Finish)                                                 \
     X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)               \
+    X(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)                     \
     X(GENBUFFERS, GenBuffers)                                         \
     X(GENFRAMEBUFFERS, GenFramebuffers)                               \
     X(GENRENDERBUFFERS, GenRenderbuffers)                             \
@@ -53,12 +57,15 @@ namespace fluxwalk::gl {
     X(GENVERTEXARRAYS, GenVertexArrays)                               \
     X(GENERATEMIPMAP, GenerateMipmap)                                 \
     X(GETERROR, GetError)                                             \
+    X(GETFLOATV, GetFloatv)                                           \
     X(GETINTEGERV, GetIntegerv)                                       \
     X(GETPROGRAMINFOLOG, GetProgramInfoLog)                           \
     X(GETPROGRAMIV, GetProgramiv)                                     \
     X(GETSHADERINFOLOG, GetShaderInfoLog)                             \
     X(GETSHADERIV, GetShaderiv)                                       \
     X(GETSTRING, GetString)                                           \
+    X(GETSTRINGI, GetStringi)                                         \
+    X(GETTEXIMAGE, GetTexImage)                                       \
     X(GETUNIFORMLOCATION, GetUniformLocation)                         \
     X(LINKPROGRAM, LinkProgram)                                       \
     X(PIXELSTOREI, PixelStorei)                                       \
@@ -67,6 +74,7 @@ namespace fluxwalk::gl {
     X(SCISSOR, Scissor)                                               \
     X(SHADERSOURCE, ShaderSource)                                     \
     X(TEXIMAGE2D, TexImage2D)                                         \
+    X(TEXPARAMETERF, TexParameterf)                                   \
     X(TEXPARAMETERI, TexParameteri)                                   \
     X(UNIFORM1F, Uniform1f)                                           \
     X(UNIFORM1I, Uniform1i)                                           \

@@ -55,8 +55,12 @@ void Program::use() const {
     gl_.UseProgram(id_);
 }
 
+GLint Program::uniformIfThere(const char* name) const {
+    return gl_.GetUniformLocation(id_, name);
+}
+
 GLint Program::uniform(const char* name) const {
-    const GLint location = gl_.GetUniformLocation(id_, name);
+    const GLint location = uniformIfThere(name);
     FLUXWALK_CHECK_LE(0, location);
     return location;
 }

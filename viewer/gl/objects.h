@@ -61,6 +61,8 @@ class Program {
     void use() const;
     /// Location of a uniform that must exist.
     GLint uniform(const char* name) const;
+    /// The same of one that only some variants of a program have: -1, which GL ignores, in the others.
+    GLint uniformIfThere(const char* name) const;
 
   private:
     const Functions& gl_;

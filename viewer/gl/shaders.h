@@ -16,6 +16,8 @@ extern const std::string_view kFaceVertex;
 extern const std::string_view kFaceFragment;
 extern const std::string_view kLineVertex;
 extern const std::string_view kLineFragment;
+extern const std::string_view kGlowVertex;
+extern const std::string_view kGlowFragment;
 extern const std::string_view kPanelVertex;
 extern const std::string_view kPanelFragment;
 

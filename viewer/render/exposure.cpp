@@ -8,7 +8,7 @@
 namespace fluxwalk::render {
 namespace {
 
-constexpr double kBrightPart = 0.8;
+constexpr double kBrightPart = 0.85;
 /// Where the bright surfaces come to lie; 1 is white for the linear curve.
 constexpr double kBrightLevel = 0.85;
 constexpr double kWhitePerExposureValue = 1.2;
@@ -53,12 +53,13 @@ base::Rgb emissionOfSide(const scene::LitMesh& mesh, const scene::Material& mate
 }
 
 MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& material,
-                          const base::Rgb& meanReflectanceTexture, const base::Rgb& meanEmissionTexture) {
+                          const base::Rgb& meanReflectanceTexture, const base::Rgb& meanEmissionTexture,
+                          std::size_t step) {
     MeshLuminance result;
     const base::Rgb reflectance = material.reflectance * meanReflectanceTexture;
     const base::Rgb emission = emissionOfSide(mesh, material) * meanEmissionTexture;
     const bool emits = base::luminance(emission) > 0.0f;
-    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3 * step) {
         const std::uint32_t a = mesh.triangles[t];
         const std::uint32_t b = mesh.triangles[t + 1];
         const std::uint32_t c = mesh.triangles[t + 2];

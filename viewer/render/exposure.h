@@ -28,7 +28,8 @@ class LuminanceHistogram {
 };
 
 /// Luminances of one lit side. Sides that emit count with their emission only in `emitting`, since lamps may
-/// be brighter than the picture can show. The means of the textures are linear colours (white without).
+/// be brighter than the picture can show. The means of the textures are linear colours (white without). Only
+/// every `step`-th triangle is looked at.
 struct MeshLuminance {
     LuminanceHistogram reflecting;
     LuminanceHistogram emitting;
@@ -36,12 +37,13 @@ struct MeshLuminance {
     LuminanceHistogram illuminance;
 };
 MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& material,
-                          const base::Rgb& meanReflectanceTexture, const base::Rgb& meanEmissionTexture);
+                          const base::Rgb& meanReflectanceTexture, const base::Rgb& meanEmissionTexture,
+                          std::size_t step = 1);
 
 /// Emission in lm/m2 that leaves this side: the front, or both if the material is doubleSided.
 base::Rgb emissionOfSide(const scene::LitMesh& mesh, const scene::Material& material);
 
-/// Exposure per cd/m2 that shows the bright surfaces (90 % of the area is darker) just below white. Goes by
+/// Exposure per cd/m2 that shows the bright surfaces (85 % of the area is darker) just below white. Goes by
 /// the emitting sides where nothing else is lit, and is 1 where nothing is.
 double automaticExposure(const LuminanceHistogram& reflecting, const LuminanceHistogram& emitting);
 

@@ -7,10 +7,9 @@
 #include "core/scene/lighting.h"
 #include "viewer/render/color_map.h"
 #include "viewer/render/false_color.h"
-#include "viewer/render/gpu_mesh.h"
+#include "viewer/render/glow.h"
+#include "viewer/render/lit_pass.h"
 #include "viewer/render/overlay.h"
-#include "viewer/render/textures.h"
-#include "viewer/render/tone.h"
 
 namespace fluxwalk::render {
 
@@ -21,7 +20,8 @@ enum class Shown : std::uint8_t {
     luminance = 2,
     level,  ///< of the elements, as colours of the overlay's faces, as all below
     residual,
-    objects
+    objects,
+    linkErrors
 };
 
 /// Whether faces of the overlay are shown instead of the light.
@@ -41,6 +41,7 @@ struct DrawSettings {
     bool elementEdges = false;
     bool clusterBoxes = false;
     unsigned clusterDepth = 5;  ///< below the root, of the boxes
+    bool glow = false;          ///< around what shines, in the picture
 
     bool operator==(const DrawSettings&) const = default;
 };
@@ -51,66 +52,50 @@ class SceneRenderer {
     SceneRenderer(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene);
 
     /// The meshes to draw from now on, and the lights that they are lit by. Those that are already on the GPU
-    /// (same pointer) stay there. Returns how many were sent.
+    /// (same pointer) stay there; of others of the same side only what differs is sent. Returns how many
+    /// meshes had to be sent, in part or whole.
     std::size_t setMeshes(const scene::LitMeshes& meshes, const scene::Lighting& lighting = {});
     std::size_t triangleCount() const { return triangleCount_; }
+    /// Of the last picture: those that were not left out as out of sight.
+    std::size_t drawnTriangles() const { return pass_.drawnTriangles(); }
     const base::Box& bounds() const { return bounds_; }
 
-    /// Exposure for the present meshes (see automaticExposure).
-    double automaticExposure() const;
+    /// Exposure for what a camera sees (light_meter.h). Draws a small picture; the bound target stays bound.
+    double meterExposure(const scene::Camera& camera, double aspect);
     /// The range in which values are shown: that of the settings, or the one found for the present meshes.
-    ValueRange rangeOf(const DrawSettings& settings) const;
+    ValueRange rangeOf(const DrawSettings& settings);
     const ColorMap& colorMap() const { return colorMap_; }
 
     /// What is drawn where the settings ask for faces, element edges or cluster boxes; until it has faces,
     /// lit surfaces are drawn.
     Overlay& overlay() { return overlay_; }
 
-    /// Draws into the bound target, over all of it.
+    /// Draws into the bound target, over all of it. Where the settings have no exposure, it is metered.
     void draw(const scene::Camera& camera, double aspect, const DrawSettings& settings);
+    /// Draws linear luminance in cd/m2 into the bound target, which has floats.
+    void drawLight(const scene::Camera& camera, double aspect);
 
   private:
-    /// The uniforms of a program that applies tone.glsl.
-    struct ToneUniforms {
-        explicit ToneUniforms(const gl::Program& program)
-            : exposure(program.uniform("exposure")), curve(program.uniform("toneCurve")) {}
-        GLint exposure;
-        GLint curve;
-    };
-    struct LitUniforms {
-        explicit LitUniforms(const gl::Program& program);
-        GLint clipFromWorld, reflectanceTransform, emissionTransform, reflectanceSet, emissionSet,
-            reflectance, emission, alphaCutoff, reflectanceTexture, emissionTexture, shown, colorMap,
-            valueScale, valueRange, isolineStep;
-    };
-
-    void sendColorMap() const;
-    void setValues(const DrawSettings& settings) const;
-    void setTone(const ToneUniforms& uniforms, const DrawSettings& settings) const;
-    void drawBackground(const scene::Camera& camera, const glm::mat4& clipFromWorld,
-                        const DrawSettings& settings) const;
-    void drawLit(const scene::Camera& camera, const glm::mat4& clipFromWorld, const DrawSettings& settings);
-    void drawMesh(const GpuMesh& mesh);
-    void drawBlended(const scene::Camera& camera);
+    LitView viewOf(const scene::Camera& camera, double aspect, Output output) const;
+    LitView viewOf(const scene::Camera& camera, double aspect, const DrawSettings& settings);
+    void addGlow(LitView& view);
+    void begin() const;
+    void drawSurfaces(const LitView& view);
+    const MeshLuminance& luminance();
 
     const gl::Functions& gl_;
     std::shared_ptr<const scene::Scene> scene_;
-    scene::Lighting lighting_;
-    gl::Program lit_;
-    LitUniforms litUniforms_;
-    ToneUniforms litTone_;
-    gl::Program background_;
-    ToneUniforms backgroundTone_;
-    gl::VertexArray noVertices_;
-    Textures textures_;
+    LitPass pass_;
     ColorMap colorMap_;
-    gl::Texture colorMapTexture_;
     Overlay overlay_;
+    std::optional<Glow> glow_;
+    std::unique_ptr<gl::RenderTarget> meterTarget_;
     std::unordered_map<const scene::LitMesh*, GpuMesh> meshes_;
     /// In the order given, so that pictures do not depend on addresses.
     std::vector<const GpuMesh*> opaque_;
     std::vector<const GpuMesh*> blended_;
-    MeshLuminance luminance_;
+    /// Of the present meshes, once somebody asks.
+    std::optional<MeshLuminance> luminance_;
     base::Box bounds_;
     std::size_t triangleCount_ = 0;
 };

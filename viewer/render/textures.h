@@ -14,7 +14,8 @@ glm::mat3 texcoordTransform(const scene::TextureRef& texture);
 /// Mean of a picture's colours in linear light; of large pictures, of an even selection of 64k pixels.
 base::Rgb meanColor(const scene::Image& image);
 
-/// A scene's pictures on the GPU, sent when first used.
+/// A scene's pictures on the GPU, sent when first used: with mipmaps, and anisotropic filtering where there
+/// is.
 class Textures {
   public:
     Textures(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene);
@@ -33,6 +34,7 @@ class Textures {
     const gl::Functions& gl_;
     std::shared_ptr<const scene::Scene> scene_;
     std::map<std::int32_t, Loaded> loaded_;
+    float mostAnisotropy_ = 1.0f;  ///< 1 where the context has none
 };
 
 }  // namespace fluxwalk::render

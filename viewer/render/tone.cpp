@@ -24,6 +24,13 @@ base::Rgb applyToneCurve(const base::Rgb& exposed, ToneCurve curve) {
             const float y = base::luminance(exposed);
             return exposed * ((1.0f + y / 16.0f) / (1.0f + y));
         }
+        case ToneCurve::hue: {
+            const float peak = std::max({exposed.r, exposed.g, exposed.b, 1e-12f});
+            const float curved = filmic(peak);
+            const float square = curved * curved;
+            const float white = square * square * square * square;
+            return curved * glm::mix(exposed / peak, base::Rgb(1.0f), white);
+        }
         case ToneCurve::linear:
             break;
     }

@@ -8,7 +8,7 @@
 namespace fluxwalk::render {
 
 /// How exposed luminance becomes a display value; the numbers are those of the shader.
-enum class ToneCurve : std::uint8_t { linear = 0, filmic = 1, reinhard = 2 };
+enum class ToneCurve : std::uint8_t { linear = 0, filmic = 1, reinhard = 2, hue = 3 };
 
 /// Applies the curve to exposed luminance (1 is white for the linear curve). Display-linear, may exceed 1.
 base::Rgb applyToneCurve(const base::Rgb& exposed, ToneCurve curve);

@@ -107,6 +107,20 @@ ImVec4 colorOf(NodeKind kind) {
     return kind == NodeKind::element ? kAccent : kind == NodeKind::cluster ? kCool : ImVec4(1, 1, 0.85f, 1);
 }
 
+// All links alike, since a blocked one brings no light; the most blocked last, on top.
+void drawVisibility(ImDrawList& list, const image::Inspection& inspection, const Projection& project,
+                    float scale) {
+    const render::ColorMap map;
+    std::vector<image::Connection> links = inspection.connections;
+    std::stable_sort(links.begin(), links.end(), [](const image::Connection& a, const image::Connection& b) {
+        return a.visibility > b.visibility;
+    });
+    for (const image::Connection& link : links) {
+        const render::Color8& c = map.at(static_cast<double>(link.visibility));
+        project.line(list, inspection.center, link.source, IM_COL32(c[0], c[1], c[2], 170), 1.2f * scale);
+    }
+}
+
 void drawLinks(ImDrawList& list, const image::Inspection& inspection, const Projection& project,
                float scale) {
     const double total = std::max(value(inspection.irradiance), 1e-12);
@@ -266,7 +280,9 @@ void drawInspection(const image::Inspection& inspection, const scene::Scene& sce
     const float scale = canvas.scale;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const Projection project(camera);
-    if (view.links) {
+    if (view.visibility) {
+        drawVisibility(list, inspection, project, scale);
+    } else if (view.links) {
         drawLinks(list, inspection, project, scale);
     }
     const ImU32 outline = ImGui::GetColorU32(kAccent);

@@ -12,6 +12,7 @@ namespace fluxwalk::ui {
 struct InspectionView {
     bool links = false;         ///< of its element, as lines
     bool contributors = false;  ///< as a list
+    bool visibility = false;    ///< lines to its links, coloured by the part that is not blocked
 };
 
 /// The whole of it as lines of text, for people and for scripts: "key: value".

@@ -28,7 +28,10 @@ constexpr std::array kSeeing{KeyLine{"C", "illuminance in false colour, or the p
                              KeyLine{"I", "values of the point under the cursor; a click pins it"},
                              KeyLine{"P", "pause or continue the solver"},
                              KeyLine{"N", "one level further while paused"}};
-constexpr std::array kWindow{KeyLine{"F1", "this help"}, KeyLine{"F11", "full screen"}, KeyLine{"H", "panel"},
+constexpr std::array kWindow{KeyLine{"F1", "this help"},
+                             KeyLine{"F11", "full screen"},
+                             KeyLine{"F12, Shift F12", "keep the picture as PNG, the light as EXR"},
+                             KeyLine{"H", "panel"},
                              KeyLine{"Esc", "release mouse and pin, close help and messages"},
                              KeyLine{"drop a file", "open that scene"}};
 constexpr std::array kGroups{KeyGroup{"Moving", kMoving}, KeyGroup{"Around things", kAround},

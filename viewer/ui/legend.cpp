@@ -39,9 +39,10 @@ ImU32 pack(const render::Color8& color) {
 Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange& range,
                   const render::ColorMap& map) {
     Legend legend;
-    legend.title = settings.shown == render::Shown::luminance  ? "Luminance, cd/m\u00b2"
-                   : settings.shown == render::Shown::residual ? "Residual, lm/m\u00b2"
-                                                               : "Illuminance, lx";
+    legend.title = settings.shown == render::Shown::luminance    ? "Luminance, cd/m\u00b2"
+                   : settings.shown == render::Shown::residual   ? "Residual, lm/m\u00b2"
+                   : settings.shown == render::Shown::linkErrors ? "Error of links, lx"
+                                                                 : "Illuminance, lx";
     legend.colors.assign(map.colors().begin(), map.colors().end());
     for (const double number : render::roundNumbers(range, settings.scale)) {
         legend.marks.push_back({render::placeOf(number, range, settings.scale), formatRound(number)});
@@ -49,7 +50,17 @@ Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange
     return legend;
 }
 
-void drawLegend(const Legend& legend, const Canvas& canvas) {
+Legend makeVisibilityLegend(const render::ColorMap& map) {
+    Legend legend;
+    legend.title = "Visibility";
+    legend.colors.assign(map.colors().begin(), map.colors().end());
+    for (int tenths = 0; tenths <= 10; tenths += 2) {
+        legend.marks.push_back({0.1 * tenths, fmt::format("{} %", 10 * tenths)});
+    }
+    return legend;
+}
+
+float drawLegend(const Legend& legend, const Canvas& canvas, float fromRight) {
     const float scale = canvas.scale;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
@@ -63,7 +74,8 @@ void drawLegend(const Legend& legend, const Canvas& canvas) {
     const ImVec2 title = ImGui::CalcTextSize(legend.title.c_str());
     const float inner = std::max(title.x, barWidth + (kTick + kGap) * scale + labelWidth);
     const ImVec2 size(inner + 2.0f * padding, title.y + barHeight + font + 2.0f * padding);
-    const ImVec2 lower(display.x - size.x - padding, display.y - canvas.reserved - size.y - padding);
+    const ImVec2 lower(display.x - fromRight - size.x - padding,
+                       display.y - canvas.reserved - size.y - padding);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(lower, ImVec2(lower.x + size.x, lower.y + size.y),
                        ImGui::GetColorU32(ImGuiCol_WindowBg, 0.96f), 6.0f * scale);
@@ -91,6 +103,7 @@ void drawLegend(const Legend& legend, const Canvas& canvas) {
             lastLabel = y;
         }
     }
+    return size.x + padding;
 }
 
 }  // namespace fluxwalk::ui

@@ -30,7 +30,11 @@ struct Legend {
 Legend makeLegend(const render::DrawSettings& settings, const render::ValueRange& range,
                   const render::ColorMap& map);
 
-/// Draws it in the lower right corner of the picture. Labels that would touch are left out.
-void drawLegend(const Legend& legend, const Canvas& canvas);
+/// For links coloured by the part of them that is not blocked.
+Legend makeVisibilityLegend(const render::ColorMap& map);
+
+/// Draws it in the lower right corner of the picture, so many pixels from the right edge. Labels that would
+/// touch are left out. Returns the width that it takes.
+float drawLegend(const Legend& legend, const Canvas& canvas, float fromRight = 0.0f);
 
 }  // namespace fluxwalk::ui

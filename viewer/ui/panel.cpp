@@ -103,9 +103,10 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
 
 void drawExposure(ViewSettings& settings) {
     ExposureControl& control = settings.exposure;
-    beginRow("Exposure",
-             "Automatic: the brightest tenth of the surfaces is shown just below white. Switched off, the "
-             "exposure stays as it is.");
+    beginRow(
+        "Exposure",
+        "Automatic: the brightest seventh of what is seen, most of it in the middle, is shown just below "
+        "white. Switched off, the exposure stays as it is.");
     ImGui::Checkbox("automatic##exposure", &control.isAutomatic);
     beginRow("", "");
     if (control.isAutomatic) {
@@ -128,14 +129,20 @@ void drawExposure(ViewSettings& settings) {
                   "Luminance that the linear curve shows as white.");
     }
 
-    constexpr std::array<const char*, 3> kCurves{"Linear", "Filmic", "Reinhard"};
+    constexpr std::array<const char*, 4> kCurves{"Linear", "Filmic", "Reinhard", "Hue"};
     int curve = static_cast<int>(settings.draw.curve);
     beginRow("Tone curve",
              "Linear is true to the light and clips. Filmic rolls off towards white and deepens the dark "
-             "tones. Reinhard compresses all highlights and keeps their hue.");
+             "tones. Reinhard compresses all highlights. Hue is filmic by the brightest channel: no colour "
+             "drifts.");
     if (ImGui::Combo("##curve", &curve, kCurves.data(), static_cast<int>(kCurves.size()))) {
         settings.draw.curve = static_cast<render::ToneCurve>(curve);
     }
+    beginRow(
+        "Glow",
+        "The veil that lenses and eyes spread around lamps: a twentieth of the light, blurred. Draws all "
+        "that is seen once more, small.");
+    ImGui::Checkbox("around lamps##glow", &settings.draw.glow);
 }
 
 void drawMovement(const PanelInfo& info, ViewSettings& settings, Walker& walker, PanelActions& actions) {

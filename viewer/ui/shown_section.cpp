@@ -75,6 +75,8 @@ void drawOverlays(ViewSettings& settings) {
             "Lines to where the element's light comes from: wider ones carry more. Amber: elements, blue: "
             "clusters, white: lights and sky.");
         ImGui::Checkbox("lines##links", &settings.inspection.links);
+        beginRow("   visibility", "The same lines, all alike, by how much of each is not blocked.");
+        ImGui::Checkbox("colours##visibility", &settings.inspection.visibility);
         beginRow("   lit by", "What lights the point, as parts of its illuminance.");
         ImGui::Checkbox("list##contributors", &settings.inspection.contributors);
     }
@@ -89,18 +91,20 @@ void drawShown(const PanelInfo& info, ViewSettings& settings) {
         const char* name;
         bool needsSolver;
     };
-    constexpr std::array<Kind, 6> kKinds{{{Shown::picture, "Picture", false},
+    constexpr std::array<Kind, 7> kKinds{{{Shown::picture, "Picture", false},
                                           {Shown::illuminance, "Illuminance", false},
                                           {Shown::luminance, "Luminance", false},
                                           {Shown::level, "Level of elements", true},
                                           {Shown::residual, "Residual", true},
-                                          {Shown::objects, "Objects", false}}};
+                                          {Shown::objects, "Objects", false},
+                                          {Shown::linkErrors, "Error of links", true}}};
     render::DrawSettings& draw = settings.draw;
-    beginRow(
-        "Show",
-        "Picture: as a camera sees it.\nIlluminance: light that arrives, in lux. Key: C\nLuminance: "
-        "brightness of the surfaces, in cd/m\u00b2.\nLevel of elements: how often they were "
-        "quartered.\nResidual: what a further sweep would change.\nObjects: each in a colour of its own.");
+    beginRow("Show",
+             "Picture: as a camera sees it.\nIlluminance: light that arrives, in lux. Key: C\nLuminance: "
+             "brightness of the surfaces, in cd/m\u00b2.\nLevel of elements: how often they were "
+             "quartered.\nResidual: what a further sweep would change.\nObjects: each in a colour of its "
+             "own.\nError of links: what they leave "
+             "in the light of each element.");
     if (ImGui::BeginCombo("##shown", kKinds[static_cast<std::size_t>(draw.shown)].name)) {
         for (const Kind& kind : kKinds) {
             const bool isOffered = info.session || !kind.needsSolver;

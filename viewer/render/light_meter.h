@@ -1,0 +1,18 @@
+#pragma once
+
+#include <span>
+
+#include "viewer/gl/pixel_size.h"
+#include "viewer/render/exposure.h"
+
+namespace fluxwalk::render {
+
+/// Size of the picture that is metered, for a view `aspect` times as wide as high: some thousand pixels.
+gl::PixelSize meterSize(double aspect);
+
+/// Exposure per cd/m2 for what is seen: of Output::meter, three floats a pixel. The middle of the picture
+/// counts most. The bright surfaces (a seventh of what is seen is brighter) come just below white; lamps do
+/// not count unless nothing else is lit. 1 where nothing shines.
+double meterExposure(std::span<const float> pixels, gl::PixelSize size);
+
+}  // namespace fluxwalk::render
