@@ -31,7 +31,7 @@ struct MeshOptions {
     std::array<bool, 2> texcoords{true, true};
 };
 
-/// What part of its patch a display leaf is: a path of quarterings and, for quads, of cuts in two below it
+/// What part of its patch a display leaf is: a path of splits and, for quads, of cuts in two below it
 /// (Cell::cuts).
 struct CellPlace {
     surface::Path path = surface::kRootPath;

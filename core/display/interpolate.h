@@ -14,7 +14,7 @@ class DisplayLookup {
         : surface_(surface), meshes_(meshes) {}
 
     /// Lux at (u,v) of a patch, or nothing where that side of it is not displayed. Cost: a descent through
-    /// the patch's quarterings.
+    /// the patch's splits.
     std::optional<Rgb> irradiance(std::uint32_t patch, bool back, const Vec2d& uv) const;
 
   private:

@@ -14,7 +14,7 @@ using base::Vec3;
 using base::Vec3d;
 
 /// Grid coordinates in a patch: corners of elements are whole multiples of 2^-31 of the patch's sides (in the
-/// order of quarterings, whatever `splitPoint` makes of it in u,v).
+/// order of splits, whatever `splitPoint` makes of it in u,v).
 struct GridPoint {
     std::uint32_t x = 0;
     std::uint32_t y = 0;

@@ -26,7 +26,7 @@ struct Detail {
 struct MeshElements {
     std::vector<std::uint32_t> elementOf;  ///< by triangle: index into the arrays below
     std::vector<std::uint32_t> edges;      ///< borders of the elements, two vertices of the mesh each
-    std::vector<std::uint8_t> level;       ///< by element: quarterings below its patch
+    std::vector<std::uint8_t> level;       ///< by element: splits below its patch
     /// By element: what one more sweep would change of its radiosity, lm/m2, mean of the channels; empty
     /// unless asked for.
     std::vector<float> residual;
