@@ -5,6 +5,7 @@
 
 #include "core/base/photometry.h"
 #include "core/transport/cluster_points.h"
+#include "core/transport/exposed_part.h"
 
 namespace fluxwalk::transport {
 
@@ -142,7 +143,98 @@ PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     return result;
 }
 
+/// Of clusters of so few patches each counts by itself: about as dear as points of them all, and as exact as
+/// pairs of elements.
+constexpr std::size_t kFewPatches = 8;
+
+// Part of what a patch exchanges with an element that its exposed cells take.
+double exposedShare(const hierarchy::Hierarchy& h, NodeId patch, const ElementPoints& e) {
+    if (!isPartlyHidden(h.shape(patch))) {
+        return 1.0;
+    }
+    const auto kernel = [&](const SurfaceSample& p) { return computePointFactor(p.position, p.normal, e); };
+    return findExposedPart(h, patch, kernel).share;
+}
+
+/// A patch of a cluster and what it exchanges with an element.
+struct PatchView {
+    double power = 0.0;   ///< m2
+    double shares = 0.0;  ///< its share of what the cluster gets, times its area
+    Lanes values{};       ///< factors at its points, and their weights
+    Lanes weight{};
+};
+
+// Twice the mean deviation of what the patches' points receive from what the shares give their patches.
+double spreadOf(std::span<const PatchView> patches, double power, double shares) {
+    const double perShare = shares > 0.0 ? power / shares : 0.0;
+    double off = 0.0;
+    for (const PatchView& patch : patches) {
+        const double given = perShare * patch.shares;
+        double mean = 0.0;
+        for (int k = 0; k < kLanes; ++k) {
+            mean += patch.weight[k] * patch.values[k];
+        }
+        if (!(mean > 0.0)) {
+            off += std::abs(patch.power - given);
+            continue;
+        }
+        // The points' values tell how the patch's power is spread over it.
+        for (int k = 0; k < kLanes; ++k) {
+            off += patch.weight[k] * std::abs(patch.power * patch.values[k] / mean - given);
+        }
+    }
+    return power > 0.0 ? 2.0 * off / power : 0.0;
+}
+
+PairFactor withFewPatches(const hierarchy::Hierarchy& h, NodeId cluster, NodeId element) {
+    const ElementPoints e = makeElementPoints(h, element);
+    const Ball ball = findBall(h, cluster, element);
+    const std::span<const NodeId> below = h.patchesBelow(cluster);
+    std::array<PatchView, kFewPatches> patches;
+    PairFactor result;  // a: the cluster
+    double power = 0.0;
+    double shares = 0.0;
+    Lanes atElement = splat(0.0);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+        PatchView& patch = patches[i];
+        patch.shares =
+            static_cast<double>(computeShare(h.patchTable(), h.firstPatchBelow(cluster) + i, ball) *
+                                h.shape(below[i]).exposedArea());
+        shares += patch.shares;
+        const ElementPoints p = makeElementPoints(h, below[i]);
+        const PairFactor pair = computePairFactor(p, e);
+        result.evaluations += pair.evaluations;
+        if (pair.coupling > 0.0) {
+            const double exposed = exposedShare(h, below[i], e);
+            patch.power = exposed * pair.coupling;
+            patch.values = computePointFactors(p.position, p.normal, e);
+            patch.weight = p.weight;
+            power += patch.power;
+            atElement += exposed * computePointFactors(e.position, e.normal, p);
+            result.evaluations += kLanes * (p.contourCount + e.contourCount);
+        }
+    }
+    if (!(power > 0.0)) {
+        return result;
+    }
+    result.coupling = power * static_cast<double>(h.shape(element).sampledArea() / h.shape(element).area);
+    result.spreadA = spreadOf({patches.data(), below.size()}, power, shares);
+    std::array<double, kLanes> seen{};
+    double mean = 0.0;
+    for (int i = 0; i < kLanes; ++i) {
+        seen[static_cast<std::size_t>(i)] = atElement[i];
+        mean += e.weight[i] * atElement[i];
+    }
+    const LinearFit fit = fitLinear(e, seen, mean);
+    result.gradientB = mean > 0.0 ? fit.gradient : base::Vec2d(0.0);
+    result.spreadB = mean > 0.0 ? fit.deviation / mean : 2.0;
+    return result;
+}
+
 PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId element) {
+    if (h.patchesBelow(cluster).size() <= kFewPatches) {
+        return withFewPatches(h, cluster, element);
+    }
     const ClusterPoints points = makeClusterPoints(h, cluster);
     const ElementPoints e = makeElementPoints(h, element);
     Values values{};

@@ -20,10 +20,11 @@ inline float sumShares(const hierarchy::Hierarchy& hierarchy, NodeId cluster, co
 }
 
 /// Unoccluded exchange of a pair of which at least one is a cluster, from 32 points of each cluster; an
-/// element's factor is exact at these. Spreads of clusters: twice the mean deviation from the shares of the
-/// patches, relative to the mean; a part of it stands for the coupling's own error at the other end. Coupling
-/// 0: no point sees another, which proves nothing. No patch gets more than the ball about the other end could
-/// send it.
+/// element's factor is exact at these. Of eight patches or fewer, each exchanges with an element as pairs of
+/// elements do. Spreads of clusters: twice the mean deviation from the shares of the patches, relative to the
+/// mean; where points stand for patches, a part of it counts as the coupling's own error at the other end.
+/// Coupling 0: no point sees another, which proves nothing. No patch of two clusters gets more than the ball
+/// about the other end could send it.
 PairFactor computeClusterFactor(const hierarchy::Hierarchy& hierarchy, NodeId a, NodeId b);
 
 }  // namespace fluxwalk::transport

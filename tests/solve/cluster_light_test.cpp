@@ -184,4 +184,33 @@ TEST(ClusterHardScenes, coincidentPolygons) {
     expectSolved(test::buildCoincident(2000));
 }
 
+// A lamp of few patches near the ceiling: its cluster costs no more links than its patches, and sends as
+// much.
+TEST(ClusterLight, globeCostsNoMoreThanItsPatches) {
+    const auto solve = [](solve::ClusterLinks links) {
+        scene::Scene scene;
+        scene::addMaterial(scene, "wall", Rgb(.5f));
+        scene::addMaterial(scene, "lamp", Rgb(0.0f), Rgb(3000.0f));
+        scene::addPolygons(scene, "room", 0,
+                           scene::boxFaces({-2, 0, -2}, {2.3, 3, 2}, scene::kAllFaces, true));
+        scene.objects.push_back({"globe", std::make_shared<surface::Sphere>(Vec3d(.1, 2.85, .2), .12), 1});
+        solve::Options options;
+        options.clusterLinks = links;
+        auto problem = test::makeProblem(std::move(scene), options);
+        for (const double threshold : {1.0, .25, .06, .015, .004}) {
+            test::refine(*problem, threshold);
+            test::converge(*problem, 1e-4);
+        }
+        return problem;
+    };
+    const auto with = solve(solve::ClusterLinks::on);
+    const auto without = solve(solve::ClusterLinks::off);
+    EXPECT_GT(with->links.clusterLinks, 10u);
+    EXPECT_LT(with->links.links.size(), without->links.links.size());
+    EXPECT_GT(without->links.links.size(), 2000u);
+    const Vec3d sent = solve::auditEnergy(*with, 1000).absorbed;
+    const Vec3d reference = solve::auditEnergy(*without, 1000).absorbed;
+    EXPECT_NEAR(sent.y / reference.y, 1.0, .005);
+}
+
 }  // namespace fluxwalk

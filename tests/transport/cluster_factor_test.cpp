@@ -231,4 +231,47 @@ TEST(ClusterFactor, lightsNoPatchMoreThanABallCould) {
     EXPECT_GT(most, .2);
 }
 
+// A ball of radius r sends r2 cos / d2 of its radiosity to a point whose horizon it is above.
+TEST(ClusterFactor, aBallLightsEachElementOfARoom) {
+    scene::Scene scene;
+    scene::addMaterial(scene, "wall", base::Rgb(.5f));
+    scene::addMaterial(scene, "lamp", base::Rgb(0.0f), base::Rgb(1.0f));
+    scene::addPolygons(scene, "room", 0, scene::boxFaces({-2, 0, -2}, {2.3, 3, 2}, scene::kAllFaces, true));
+    const Vec3d middle(.1, 2.8, .2);
+    constexpr double kRadius = .15;
+    scene.objects.push_back({"ball", std::make_shared<surface::Sphere>(middle, kRadius), 1});
+    Built built(std::move(scene));
+    built.split(3);
+    NodeId ball = built.tree.patchNode(1, 0, false);
+    while (built.tree.patchesBelow(ball).size() < 8) {
+        ball = built.tree.parent(ball);
+    }
+    ASSERT_EQ(built.tree.patchesBelow(ball).size(), 8u);
+    double off = 0.0;
+    double all = 0.0;
+    double sum = 0.0;
+    for (std::uint32_t patch = 0; patch < 6; ++patch) {
+        for (const NodeId id : built.leavesOf(built.tree.patchNode(0, patch, false))) {
+            const surface::Region region = built.tree.region(id);
+            double exact = 0.0;
+            constexpr int kSide = 40;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const base::Vec2d st((i % kSide + .5) / kSide, (i / kSide + .5) / kSide);
+                const surface::RegionPoint at = surface::mapToRegion(region, st);
+                const surface::SurfacePoint x = built.tree.surfaceOf(id).evaluate(patch, at.uv);
+                const Vec3d d = middle - x.position;
+                const double r2 = glm::dot(d, d);
+                exact += at.jacobian * x.jacobian / (kSide * kSide) * kRadius * kRadius *
+                         glm::dot(x.normal, d) / (r2 * std::sqrt(r2));
+            }
+            const double coupling = transport::computeClusterFactor(built.tree, ball, id).coupling;
+            off += std::abs(coupling - exact);
+            sum += coupling;
+            all += exact;
+        }
+    }
+    EXPECT_NEAR(sum / all, 1.0, .002);
+    EXPECT_LT(off / all, .06);
+}
+
 }  // namespace fluxwalk
