@@ -33,11 +33,10 @@ constexpr unsigned pathStep(Path path, unsigned level) {
 /// How a region is cut in four: quarters, or for quads strips that follow each other along u or v.
 enum class Split : std::uint8_t { quarters, stripsAlongU, stripsAlongV };
 
-/// How elements of `level` are cut: Surface::strips for the first levels.
+/// How elements of `level` are cut.
 constexpr Split splitAt(const Strips& strips, unsigned level) {
-    return level >= strips.levels ? Split::quarters
-           : strips.alongV        ? Split::stripsAlongV
-                                  : Split::stripsAlongU;
+    const bool isStrips = level >= strips.from && level < strips.from + strips.levels;
+    return !isStrips ? Split::quarters : strips.alongV ? Split::stripsAlongV : Split::stripsAlongU;
 }
 inline Split splitAt(const Surface& surface, std::uint32_t patch, unsigned level) {
     return splitAt(surface.strips(patch), level);

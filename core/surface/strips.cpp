@@ -36,7 +36,10 @@ Strips measureStrips(const std::function<Vec3d(const Vec2d& uv)>& at) {
         }
         return sum;
     };
-    return chooseStrips(lengthAlong(false), lengthAlong(true));
+    constexpr unsigned kQuarteredBefore = 1;
+    Strips strips = chooseStrips(lengthAlong(false), lengthAlong(true));
+    strips.from = kQuarteredBefore;
+    return strips;
 }
 
 }  // namespace fluxwalk::surface

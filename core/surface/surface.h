@@ -35,10 +35,11 @@ struct SurfacePoint {
     double jacobian = 0.0;
 };
 
-/// How a quad patch that is much longer than wide is cut first: into four strips across its length, which are
-/// nearer to squares than quarters of it would be.
+/// How a quad patch that is much longer than wide is cut: at some levels into four strips across its length,
+/// which are nearer to squares than quarters of it would be.
 struct Strips {
-    std::uint8_t levels = 0;  ///< splits of this kind on the way from the patch to its elements
+    std::uint8_t from = 0;    ///< level of the first split of this kind; those above it make quarters
+    std::uint8_t levels = 0;  ///< splits of this kind
     bool alongV = false;      ///< strips follow each other along v, else along u
 };
 

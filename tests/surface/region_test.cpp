@@ -203,6 +203,10 @@ TEST(Strips, curvedPatchesToo) {
     const surface::Cylinder column(base::Mat4d(1.0), .15, 3.0);
     EXPECT_EQ(column.strips(0).levels, 2u);
     EXPECT_TRUE(column.strips(3).alongV);
+    EXPECT_EQ(surface::splitAt(column, 0, 0), surface::Split::quarters) << "it turns by 90 degrees";
+    EXPECT_EQ(surface::splitAt(column, 0, 1), surface::Split::stripsAlongV);
+    EXPECT_EQ(surface::splitAt(column, 0, 2), surface::Split::stripsAlongV);
+    EXPECT_EQ(surface::splitAt(column, 0, 3), surface::Split::quarters);
     const surface::Torus ring(base::Mat4d(1.0), .2, .04);
     EXPECT_EQ(ring.strips(0).levels, 1u);
     EXPECT_FALSE(ring.strips(7).alongV);
