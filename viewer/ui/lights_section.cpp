@@ -71,6 +71,7 @@ bool drawLight(const scene::LightSource& source, const scene::Scene& scene, Ligh
     }
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     isChanged |= pickColor(control.color);
+    explain("Tint");
     ImGui::EndDisabled();
     return isChanged;
 }

@@ -34,6 +34,9 @@ std::string formatFor(const solve::OptionInfo& option) {
     if (option.kind == solve::OptionKind::fraction) {
         return "%.3g %%";
     }
+    if (option.unit == "degrees") {
+        return "%.4g\u00b0";
+    }
     return option.unit.empty() ? "%.4g" : "%.4g " + std::string(option.unit);
 }
 
