@@ -285,10 +285,13 @@ void drawInspection(const image::Inspection& inspection, const scene::Scene& sce
     } else if (view.links) {
         drawLinks(list, inspection, project, scale);
     }
-    const ImU32 outline = ImGui::GetColorU32(kAccent);
-    for (std::size_t k = 0; k < inspection.outline.size(); ++k) {
-        project.line(list, inspection.outline[k], inspection.outline[(k + 1) % inspection.outline.size()],
-                     outline, 1.5f * scale);
+    // Dark below bright, so that it is seen on surfaces of any colour.
+    for (const auto& [color, thickness] :
+         {std::pair(IM_COL32(0, 0, 0, 160), 3.5f), std::pair(ImGui::GetColorU32(kAccent), 1.5f)}) {
+        for (std::size_t k = 0; k < inspection.outline.size(); ++k) {
+            project.line(list, inspection.outline[k], inspection.outline[(k + 1) % inspection.outline.size()],
+                         color, thickness * scale);
+        }
     }
     const float width = ImGui::GetIO().DisplaySize.x;
     if (view.contributors) {
