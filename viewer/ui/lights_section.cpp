@@ -97,11 +97,14 @@ bool drawLights(const PanelInfo& info, std::vector<LightControl>& controls, solv
     if (isLong) {
         ImGui::EndChild();
     }
-    if (!options.lighting.isNeutral() && ImGui::Button("As in the scene")) {
+    // Always there, so that nothing below moves away from the mouse.
+    ImGui::BeginDisabled(options.lighting.isNeutral());
+    if (ImGui::Button("As in the scene")) {
         options.lighting = {};
         controls = controlsOf(info.lights, {});
         isChanged = true;
     }
+    ImGui::EndDisabled();
     return isChanged;
 }
 
