@@ -199,7 +199,8 @@ void Walkthrough::inspect(bool isClicked) {
     inspector_.update(*session_, frame);
     if (const image::Inspection* inspection = inspector_.inspection()) {
         ui::drawInspection(*inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
-                           {imgui_.scale(), kKeysHeight * imgui_.scale()});
+                           {imgui_.scale(), kKeysHeight * imgui_.scale(),
+                            ui::rightOfPanel(settings_, imgui_.scale())});
     }
 }
 

@@ -158,6 +158,7 @@ class TextField {
         : lines_(std::move(lines)),
           scale_(canvas.scale),
           reserved_(canvas.reserved),
+          left_(canvas.left),
           padding_(kPadding * canvas.scale) {
         float left = 0.0f;
         float right = 0.0f;
@@ -177,7 +178,8 @@ class TextField {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         const float margin = 4.0f * scale_;
         lower_ =
-            ImVec2(std::clamp(place.x, margin, std::max(margin, display.x - size_.x - margin)),
+            ImVec2(std::clamp(place.x, left_ + margin,
+                              std::max(left_ + margin, display.x - size_.x - margin)),
                    std::clamp(place.y, margin, std::max(margin, display.y - reserved_ - size_.y - margin)));
     }
     void draw(ImDrawList& list) const {
@@ -210,6 +212,7 @@ class TextField {
     std::vector<Line> lines_;
     float scale_;
     float reserved_;
+    float left_;
     float padding_;
     float inner_ = 0.0f;
     ImVec2 size_;
