@@ -98,6 +98,8 @@ BENCHMARK_DEFINE_F(Drawing, frame)(benchmark::State& state) {
     const gl::Functions& gl = context_->functions();
     SceneRenderer renderer(gl, scene_);
     renderer.setMeshes(meshes_);
+    // One sample is what a window drawn by the processor gives a visitor who moves.
+    renderer.setSharpTextures(state.range(1) > 1);
     const gl::RenderTarget target(gl, kSize, static_cast<int>(state.range(1)));
     const auto drawFrame = [&](int turn) {
         target.bind();

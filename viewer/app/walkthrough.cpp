@@ -198,9 +198,9 @@ void Walkthrough::inspect(bool isClicked) {
     frame.solution = shown_->sequence;
     inspector_.update(*session_, frame);
     if (const image::Inspection* inspection = inspector_.inspection()) {
-        ui::drawInspection(*inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
-                           {imgui_.scale(), kKeysHeight * imgui_.scale(),
-                            ui::rightOfPanel(settings_, imgui_.scale())});
+        ui::drawInspection(
+            *inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
+            {imgui_.scale(), kKeysHeight * imgui_.scale(), ui::rightOfPanel(settings_, imgui_.scale())});
     }
 }
 
@@ -287,6 +287,7 @@ bool Walkthrough::move(double seconds) {
 void Walkthrough::keepPicture(bool asLight) {
     render::DrawSettings look = settings_.draw;
     look.exposure = settings_.exposure.exposure;
+    picture_.renderer().setSharpTextures(true);
     try {
         const std::filesystem::path file = app::keepPicture(
             window_.functions(), picture_.renderer(), {walker_.camera(), window_.framebufferSize(), look},

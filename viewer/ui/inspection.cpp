@@ -177,10 +177,9 @@ class TextField {
     void moveTo(ImVec2 place) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         const float margin = 4.0f * scale_;
-        lower_ =
-            ImVec2(std::clamp(place.x, left_ + margin,
-                              std::max(left_ + margin, display.x - size_.x - margin)),
-                   std::clamp(place.y, margin, std::max(margin, display.y - reserved_ - size_.y - margin)));
+        lower_ = ImVec2(
+            std::clamp(place.x, left_ + margin, std::max(left_ + margin, display.x - size_.x - margin)),
+            std::clamp(place.y, margin, std::max(margin, display.y - reserved_ - size_.y - margin)));
     }
     void draw(ImDrawList& list) const {
         list.AddRectFilled(lower_, ImVec2(lower_.x + size_.x, lower_.y + size_.y),
