@@ -74,7 +74,12 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
     }
     const bool isFinished = info.session->phase == session::Phase::finished;
     if (isFinished) {
+        // As high as with buttons, so that nothing below moves away from the mouse.
+        const ImVec2 place = ImGui::GetCursorPos();
+        ImGui::SetCursorPosY(place.y + 0.5f * (ImGui::GetFrameHeight() - 6.0f * scale));
         ImGui::ProgressBar(1.0f, ImVec2(-FLT_MIN, 6.0f * scale), "");
+        ImGui::SetCursorPos(place);
+        ImGui::Dummy(ImVec2(0.0f, ImGui::GetFrameHeight()));
         return;
     }
     const float buttonWidth = 84.0f * scale;
@@ -145,9 +150,9 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
         drawProgress(info, actions, scale);
         if (info.session && beginSection("Solution")) {
             actions.changedOptions |= drawSolution(info, options);
-            if (info.snapshot != nullptr) {
-                drawConvergence(info.snapshot->statistics, options.error, scale);
-            }
+            const solve::Statistics none;
+            drawConvergence(info.snapshot != nullptr ? info.snapshot->statistics : none, options.error,
+                            scale);
         }
         if (info.session && !info.lights.empty() && beginSection("Lights")) {
             actions.changedOptions |= drawLights(info, settings.lights, options);
