@@ -22,6 +22,9 @@ TEST(Format, ValuesAndParts) {
     EXPECT_EQ(formatValue(0.01234), "0.0123");
     EXPECT_EQ(formatValue(1.5e-7), "1.50e-07");
     EXPECT_EQ(formatPercent(0.02), "2.00 %");
+    EXPECT_EQ(formatPercent(0.0), "0 %");
+    EXPECT_EQ(formatPercent(1.1e-5), "0.0011 %");
+    EXPECT_EQ(formatPercent(-3e-7), "< 0.001 %");
 }
 
 TEST(Format, TimesAndBytes) {

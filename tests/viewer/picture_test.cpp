@@ -50,6 +50,27 @@ TEST_P(EqualPictures, EglAndOsmesa) {
     }
 }
 
+TEST(SharpTextures, AreLaidAsideAndTakenUpAgain) {
+    const auto context = gl::makeHeadlessContext(gl::HeadlessKind::automatic);
+    const testing::TestRoom room = testing::makeTestRoom(true);
+    SceneRenderer renderer(context->functions(), room.scene);
+    renderer.setMeshes(snapshotOf(room).meshes);
+    const gl::RenderTarget target(context->functions(), kSize, 1);
+    // Along a textured wall.
+    scene::Camera camera = room.camera;
+    camera.forward = glm::normalize(camera.forward + base::Vec3d(0.0, -0.4, 0.0));
+    const auto draw = [&](bool areSharp) {
+        renderer.setSharpTextures(areSharp);
+        target.bind();
+        renderer.draw(camera, 4.0 / 3.0, {0.01});
+        target.resolve();
+        return target.readRgb();
+    };
+    const auto sharp = draw(true);
+    EXPECT_NE(draw(false), sharp);
+    EXPECT_EQ(draw(true), sharp);
+}
+
 TEST(EqualFalseColors, EglAndOsmesa) {
     const auto drawValues = [](gl::HeadlessKind kind) {
         const auto context = gl::makeHeadlessContext(kind);

@@ -38,7 +38,8 @@ void SeenPicture::draw(const Wanted& wanted, double now) {
     }
     const int samples = wanted.hasSmoothEdges ? samples_.choose(wanted.isMoving) : 1;
     const bool fits = target_ && target_->size() == size && target_->samples() == samples;
-    if (fits && drawn_ == wanted.look && !isOld_) {
+    const bool isSharp = !(wanted.isMoving && window_.isSoftware());
+    if (fits && isSharp == isSharp_ && drawn_ == wanted.look && !isOld_) {
         framesPerSecond_ = 0.0;
         return;
     }
@@ -47,6 +48,8 @@ void SeenPicture::draw(const Wanted& wanted, double now) {
         target_ = std::make_unique<gl::RenderTarget>(window_.functions(), size, samples);
     }
     target_->bind();
+    renderer_.setSharpTextures(isSharp);
+    isSharp_ = isSharp;
     renderer_.draw(wanted.camera, static_cast<double>(size.width) / size.height, wanted.look);
     target_->resolve();
     drawn_ = wanted.look;

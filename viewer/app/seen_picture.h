@@ -48,6 +48,7 @@ class SeenPicture {
     std::unique_ptr<gl::RenderTarget> target_;
     SampleChoice samples_;
     render::DrawSettings drawn_;
+    bool isSharp_ = true;
     bool isOld_ = true;
     double automaticExposure_ = 0.0;
     bool isMeteringOld_ = true;

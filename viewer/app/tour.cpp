@@ -40,6 +40,7 @@ gl::PixelSize displaySize() {
 Tour::Tour(gl::WindowContext& window, const Exhibit& exhibit, SceneOpener& opener)
     : window_(window),
       opener_(opener),
+      cameras_(exhibit.scene->cameras),
       solid_(exhibit.solid),
       book_(findStateFolder()),
       path_(exhibit.path),
@@ -278,6 +279,7 @@ void Tour::goTo(const scene::Camera& camera, ui::Walker& walker, double now) {
 
 ui::Places Tour::places() const {
     ui::Places places;
+    places.cameras = cameras_;
     places.bookmarks = book_.bookmarks();
     places.recentFiles = book_.recentFiles();
     places.isRecording = recorder_.isRecording();
@@ -305,6 +307,10 @@ bool Tour::act(const ui::PlaceActions& actions, const Frame& frame) {
         } catch (const std::runtime_error& error) {
             complain(error.what(), frame.now);
         }
+    }
+    if (actions.camera >= 0) {
+        goTo(cameras_[static_cast<std::size_t>(actions.camera)], frame.walker, frame.now);
+        return true;
     }
     return actions.bookmark >= 0 && goToBookmark(static_cast<std::size_t>(actions.bookmark), frame);
 }

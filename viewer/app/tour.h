@@ -40,8 +40,6 @@ class Tour {
     bool isOrbiting() const { return pivot_.has_value(); }
 
     ui::Places places() const;
-    /// Goes to a camera, unless nothing can be seen through it.
-    void goTo(const scene::Camera& camera, ui::Walker& walker, double now);
     /// What was chosen in the panel. Returns whether the camera changed.
     bool act(const ui::PlaceActions& actions, const Frame& frame);
     /// Messages and the help.
@@ -52,6 +50,8 @@ class Tour {
     void complain(const std::string& text, double now);
 
   private:
+    /// Goes to a camera, unless nothing can be seen through it.
+    void goTo(const scene::Camera& camera, ui::Walker& walker, double now);
     bool takeKeys(const Frame& frame);
     bool orbit(const Frame& frame);
     std::optional<Floor::Met> pick(const Frame& frame) const;
@@ -65,6 +65,7 @@ class Tour {
 
     gl::WindowContext& window_;
     SceneOpener& opener_;
+    const std::vector<scene::Camera> cameras_;
     const std::shared_ptr<const scene::Scene> solid_;
     VisitorBook book_;
     Recorder recorder_;

@@ -19,7 +19,9 @@
 #include "viewer/app/tour.h"
 #include "viewer/ui/imgui_context.h"
 #include "viewer/ui/imgui_renderer.h"
+#include "viewer/ui/keys.h"
 #include "viewer/ui/legend.h"
+#include "viewer/ui/message.h"
 #include "viewer/ui/panel.h"
 
 namespace fluxwalk::app {
@@ -196,8 +198,9 @@ void Walkthrough::inspect(bool isClicked) {
     frame.solution = shown_->sequence;
     inspector_.update(*session_, frame);
     if (const image::Inspection* inspection = inspector_.inspection()) {
-        ui::drawInspection(*inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
-                           {imgui_.scale(), kKeysHeight * imgui_.scale()});
+        ui::drawInspection(
+            *inspection, *exhibit_.scene, walker_.camera(), settings_.inspection,
+            {imgui_.scale(), kKeysHeight * imgui_.scale(), ui::rightOfPanel(settings_, imgui_.scale())});
     }
 }
 
@@ -284,6 +287,7 @@ bool Walkthrough::move(double seconds) {
 void Walkthrough::keepPicture(bool asLight) {
     render::DrawSettings look = settings_.draw;
     look.exposure = settings_.exposure.exposure;
+    picture_.renderer().setSharpTextures(true);
     try {
         const std::filesystem::path file = app::keepPicture(
             window_.functions(), picture_.renderer(), {walker_.camera(), window_.framebufferSize(), look},
@@ -329,7 +333,12 @@ void Walkthrough::drawInterface() {
     if (settings_.isProbing && settings_.inspection.visibility && inspector_.inspection() != nullptr) {
         ui::drawLegend(ui::makeVisibilityLegend(renderer.colorMap()), canvas, legendWidth);
     }
-    ui::drawKeys(mouse_.isCaptured(), walker_.movement, scale);
+    const float left = ui::rightOfPanel(settings_, scale);
+    ui::drawKeys({mouse_.isCaptured(), walker_.movement == ui::Movement::walk, settings_.isPanelOpen}, left,
+                 scale);
+    if (session_ && info.triangleCount == 0 && info.session->phase == session::Phase::solving) {
+        ui::drawWaiting("Finding the first light ...", left);
+    }
     if (session_ && actions.changedOptions) {
         session_->setOptions(options_);
     }
@@ -340,12 +349,9 @@ void Walkthrough::drawInterface() {
         isPaused_ = !isPaused_;
         session_->setPaused(isPaused_);
     }
-    if (actions.camera >= 0) {
-        tour_.goTo(exhibit_.scene->cameras[static_cast<std::size_t>(actions.camera)], walker_, now_);
-    }
     const bool isElsewhere = tour_.act(actions.places, {walker_, floor_, now_, false, mouse_.isCaptured()});
     tour_.draw(now_, scale);
-    if (actions.camera >= 0 || isElsewhere || fov != walker_.verticalFov()) {
+    if (isElsewhere || fov != walker_.verticalFov()) {
         picture_.renew();
     }
 }

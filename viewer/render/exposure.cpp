@@ -9,8 +9,9 @@ namespace fluxwalk::render {
 namespace {
 
 constexpr double kBrightPart = 0.85;
-/// Where the bright surfaces come to lie; 1 is white for the linear curve.
+/// Where the bright surfaces and the middle of all come to lie at most; 1 is white for the linear curve.
 constexpr double kBrightLevel = 0.85;
+constexpr double kMiddleLevel = 0.5;
 constexpr double kWhitePerExposureValue = 1.2;
 
 }  // namespace
@@ -76,8 +77,11 @@ MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& mat
 }
 
 double automaticExposure(const LuminanceHistogram& reflecting, const LuminanceHistogram& emitting) {
-    const double bright = (reflecting.isEmpty() ? emitting : reflecting).percentile(kBrightPart);
-    return bright > 0.0 ? kBrightLevel / bright : 1.0;
+    if (reflecting.isEmpty()) {
+        return emitting.isEmpty() ? 1.0 : kBrightLevel / emitting.percentile(kBrightPart);
+    }
+    return std::min(kBrightLevel / reflecting.percentile(kBrightPart),
+                    kMiddleLevel / reflecting.percentile(0.5));
 }
 
 double exposureValue(double exposure) {

@@ -43,8 +43,9 @@ MeshLuminance luminanceOf(const scene::LitMesh& mesh, const scene::Material& mat
 /// Emission in lm/m2 that leaves this side: the front, or both if the material is doubleSided.
 base::Rgb emissionOfSide(const scene::LitMesh& mesh, const scene::Material& material);
 
-/// Exposure per cd/m2 that shows the bright surfaces (85 % of the area is darker) just below white. Goes by
-/// the emitting sides where nothing else is lit, and is 1 where nothing is.
+/// Exposure per cd/m2 that shows the bright surfaces (85 % of the area is darker) just below white, and half
+/// of the area no brighter than half of white: evenly lit walls are not white. Goes by the bright emitting
+/// sides where nothing else is lit, and is 1 where nothing is.
 double automaticExposure(const LuminanceHistogram& reflecting, const LuminanceHistogram& emitting);
 
 /// Exposure value at ISO 100 of an exposure per cd/m2, by the saturation-based film speed (ISO 12232): white

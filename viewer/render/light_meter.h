@@ -11,8 +11,8 @@ namespace fluxwalk::render {
 gl::PixelSize meterSize(double aspect);
 
 /// Exposure per cd/m2 for what is seen: of Output::meter, three floats a pixel. The middle of the picture
-/// counts most. The bright surfaces (a seventh of what is seen is brighter) come just below white; lamps do
-/// not count unless nothing else is lit. 1 where nothing shines.
+/// counts most, see automaticExposure(). Lamps do not count unless nothing else is lit. 1 where nothing
+/// shines.
 double meterExposure(std::span<const float> pixels, gl::PixelSize size);
 
 }  // namespace fluxwalk::render

@@ -60,6 +60,10 @@ class SceneRenderer {
     std::size_t drawnTriangles() const { return pass_.drawnTriangles(); }
     const base::Box& bounds() const { return bounds_; }
 
+    /// Whether textures stay sharp where they are seen at a grazing angle, as at first; without, a processor
+    /// draws twice as fast.
+    void setSharpTextures(bool areSharp) { pass_.textures().setSharp(areSharp); }
+
     /// Exposure for what a camera sees (light_meter.h). Draws a small picture; the bound target stays bound.
     double meterExposure(const scene::Camera& camera, double aspect);
     /// The range in which values are shown: that of the settings, or the one found for the present meshes.

@@ -93,6 +93,10 @@ void Textures::bind(unsigned unit, const scene::TextureRef& texture) {
     gl_.BindTexture(GL_TEXTURE_2D, loaded.texture.id());
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrapMode(texture.wrapU));
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrapMode(texture.wrapV));
+    if (mostAnisotropy_ > 1.0f) {
+        gl_.TexParameterf(GL_TEXTURE_2D, kTextureMaxAnisotropy,
+                          isSharp_ ? std::min(mostAnisotropy_, kAnisotropy) : 1.0f);
+    }
 }
 
 base::Rgb Textures::mean(const scene::TextureRef& texture) {
@@ -130,9 +134,6 @@ Textures::Loaded& Textures::load(std::int32_t index) {
     gl_.GenerateMipmap(GL_TEXTURE_2D);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    if (mostAnisotropy_ > 1.0f) {
-        gl_.TexParameterf(GL_TEXTURE_2D, kTextureMaxAnisotropy, std::min(mostAnisotropy_, kAnisotropy));
-    }
     return loaded;
 }
 

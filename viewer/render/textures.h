@@ -20,6 +20,9 @@ class Textures {
   public:
     Textures(const gl::Functions& gl, std::shared_ptr<const scene::Scene> scene);
 
+    /// Whether grazing views of pictures are sharp (anisotropic filtering), as at first. On a processor that
+    /// takes as long as all the rest.
+    void setSharp(bool isSharp) { isSharp_ = isSharp; }
     /// Binds the referenced picture, or white where there is none, to a texture unit.
     void bind(unsigned unit, const scene::TextureRef& texture);
     base::Rgb mean(const scene::TextureRef& texture);
@@ -34,6 +37,7 @@ class Textures {
     const gl::Functions& gl_;
     std::shared_ptr<const scene::Scene> scene_;
     std::map<std::int32_t, Loaded> loaded_;
+    bool isSharp_ = true;
     float mostAnisotropy_ = 1.0f;  ///< 1 where the context has none
 };
 

@@ -81,9 +81,6 @@ void drawLegend(const char* text, const ImVec4& color, float scale) {
 }  // namespace
 
 void drawConvergence(const solve::Statistics& statistics, double target, float scale) {
-    if (statistics.history.size() < 2) {
-        return;
-    }
     ImGui::Spacing();
     const float height = 104.0f * scale;
     const float labels = 44.0f * scale;
@@ -126,7 +123,7 @@ void drawConvergence(const solve::Statistics& statistics, double target, float s
     drawLegend("residual", kCool, scale);
     ImGui::SameLine(0.0f, 14.0f * scale);
     drawLegend("target", ImGui::GetStyle().Colors[ImGuiCol_Text], scale);
-    const std::string end = formatSeconds(axes.seconds);
+    const std::string end = statistics.history.empty() ? "" : formatSeconds(axes.seconds);
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(end.c_str()).x);
     ImGui::TextColored(kTextDim, "%s", end.c_str());
 }

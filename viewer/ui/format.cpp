@@ -7,6 +7,9 @@
 namespace fluxwalk::ui {
 namespace {
 
+/// Smaller parts are noise that nobody wants digits of.
+constexpr double kLeastPart = 1e-5;
+
 /// Three digits in all.
 std::string withThreeDigits(double value) {
     const double size = std::abs(value);
@@ -50,6 +53,9 @@ std::string formatSeconds(double seconds) {
 }
 
 std::string formatPercent(double part) {
+    if (part != 0.0 && std::abs(part) < kLeastPart) {
+        return "< 0.001 %";
+    }
     return formatValue(part * 100.0) + " %";
 }
 

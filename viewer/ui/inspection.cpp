@@ -158,6 +158,7 @@ class TextField {
         : lines_(std::move(lines)),
           scale_(canvas.scale),
           reserved_(canvas.reserved),
+          left_(canvas.left),
           padding_(kPadding * canvas.scale) {
         float left = 0.0f;
         float right = 0.0f;
@@ -176,9 +177,9 @@ class TextField {
     void moveTo(ImVec2 place) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         const float margin = 4.0f * scale_;
-        lower_ =
-            ImVec2(std::clamp(place.x, margin, std::max(margin, display.x - size_.x - margin)),
-                   std::clamp(place.y, margin, std::max(margin, display.y - reserved_ - size_.y - margin)));
+        lower_ = ImVec2(
+            std::clamp(place.x, left_ + margin, std::max(left_ + margin, display.x - size_.x - margin)),
+            std::clamp(place.y, margin, std::max(margin, display.y - reserved_ - size_.y - margin)));
     }
     void draw(ImDrawList& list) const {
         list.AddRectFilled(lower_, ImVec2(lower_.x + size_.x, lower_.y + size_.y),
@@ -210,6 +211,7 @@ class TextField {
     std::vector<Line> lines_;
     float scale_;
     float reserved_;
+    float left_;
     float padding_;
     float inner_ = 0.0f;
     ImVec2 size_;
@@ -285,10 +287,13 @@ void drawInspection(const image::Inspection& inspection, const scene::Scene& sce
     } else if (view.links) {
         drawLinks(list, inspection, project, scale);
     }
-    const ImU32 outline = ImGui::GetColorU32(kAccent);
-    for (std::size_t k = 0; k < inspection.outline.size(); ++k) {
-        project.line(list, inspection.outline[k], inspection.outline[(k + 1) % inspection.outline.size()],
-                     outline, 1.5f * scale);
+    // Dark below bright, so that it is seen on surfaces of any colour.
+    for (const auto& [color, thickness] :
+         {std::pair(IM_COL32(0, 0, 0, 160), 3.5f), std::pair(ImGui::GetColorU32(kAccent), 1.5f)}) {
+        for (std::size_t k = 0; k < inspection.outline.size(); ++k) {
+            project.line(list, inspection.outline[k], inspection.outline[(k + 1) % inspection.outline.size()],
+                         color, thickness * scale);
+        }
     }
     const float width = ImGui::GetIO().DisplaySize.x;
     if (view.contributors) {

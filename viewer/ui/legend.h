@@ -11,6 +11,7 @@ namespace fluxwalk::ui {
 struct Canvas {
     float scale = 1.0f;     ///< 1 at 96 dpi
     float reserved = 0.0f;  ///< height in pixels at the lower edge that is kept free
+    float left = 0.0f;      ///< width in pixels at the left edge that is covered
 };
 
 /// What the colours of a picture mean.

@@ -71,6 +71,7 @@ bool drawLight(const scene::LightSource& source, const scene::Scene& scene, Ligh
     }
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     isChanged |= pickColor(control.color);
+    explain("Tint");
     ImGui::EndDisabled();
     return isChanged;
 }
@@ -96,11 +97,14 @@ bool drawLights(const PanelInfo& info, std::vector<LightControl>& controls, solv
     if (isLong) {
         ImGui::EndChild();
     }
-    if (!options.lighting.isNeutral() && ImGui::Button("As in the scene")) {
+    // Always there, so that nothing below moves away from the mouse.
+    ImGui::BeginDisabled(options.lighting.isNeutral());
+    if (ImGui::Button("As in the scene")) {
         options.lighting = {};
         controls = controlsOf(info.lights, {});
         isChanged = true;
     }
+    ImGui::EndDisabled();
     return isChanged;
 }
 

@@ -30,4 +30,11 @@ void drawMessage(const Message& message, float scale) {
     ImGui::End();
 }
 
+void drawWaiting(const std::string& text, float left) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 place(left + 0.5f * (display.x - left - size.x), 0.5f * (display.y - size.y));
+    ImGui::GetBackgroundDrawList()->AddText(place, ImGui::GetColorU32(kTextDim), text.c_str());
+}
+
 }  // namespace fluxwalk::ui

@@ -14,4 +14,7 @@ struct Message {
 /// Draws it at the upper edge, in the middle; `scale` is 1 at 96 dpi.
 void drawMessage(const Message& message, float scale);
 
+/// Draws in the middle of the window, right of `left` (pixels), what it is still waiting for.
+void drawWaiting(const std::string& text, float left);
+
 }  // namespace fluxwalk::ui

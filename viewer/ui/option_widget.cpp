@@ -1,6 +1,7 @@
 #include "viewer/ui/option_widget.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <imgui.h>
@@ -33,6 +34,14 @@ Ends endsOf(const solve::OptionInfo& option) {
 std::string formatFor(const solve::OptionInfo& option) {
     if (option.kind == solve::OptionKind::fraction) {
         return "%.3g %%";
+    }
+    // As the rest of the panel writes them; the table's are typed.
+    constexpr std::array<std::pair<std::string_view, const char*>, 3> kWritten{
+        {{"degrees", "%.4g\u00b0"}, {"lux", "%.4g lx"}, {"m2", "%.4g m\u00b2"}}};
+    for (const auto& [unit, format] : kWritten) {
+        if (option.unit == unit) {
+            return format;
+        }
     }
     return option.unit.empty() ? "%.4g" : "%.4g " + std::string(option.unit);
 }

@@ -7,9 +7,6 @@
 #include <imgui.h>
 
 #include "core/base/photometry.h"
-#include "viewer/render/exposure.h"
-#include "viewer/ui/format.h"
-#include "viewer/ui/option_widget.h"
 #include "viewer/ui/theme.h"
 #include "viewer/ui/widgets.h"
 
@@ -77,7 +74,12 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
     }
     const bool isFinished = info.session->phase == session::Phase::finished;
     if (isFinished) {
+        // As high as with buttons, so that nothing below moves away from the mouse.
+        const ImVec2 place = ImGui::GetCursorPos();
+        ImGui::SetCursorPosY(place.y + 0.5f * (ImGui::GetFrameHeight() - 6.0f * scale));
         ImGui::ProgressBar(1.0f, ImVec2(-FLT_MIN, 6.0f * scale), "");
+        ImGui::SetCursorPos(place);
+        ImGui::Dummy(ImVec2(0.0f, ImGui::GetFrameHeight()));
         return;
     }
     const float buttonWidth = 84.0f * scale;
@@ -101,51 +103,7 @@ void drawProgress(const PanelInfo& info, PanelActions& actions, float scale) {
     explain("Holds the solver at the next wave of links; the solution so far stays. Key: P");
 }
 
-void drawExposure(ViewSettings& settings) {
-    ExposureControl& control = settings.exposure;
-    beginRow(
-        "Exposure",
-        "Automatic: the brightest seventh of what is seen, most of it in the middle, is shown just below "
-        "white. Switched off, the exposure stays as it is.");
-    ImGui::Checkbox("automatic##exposure", &control.isAutomatic);
-    beginRow("", "");
-    if (control.isAutomatic) {
-        ImGui::PushID("compensation");
-        constexpr double kLeast = -5.0;
-        constexpr double kMost = 5.0;
-        ImGui::SliderScalar("##value", ImGuiDataType_Double, &control.compensation, &kLeast, &kMost,
-                            "%+.1f stops");
-        ImGui::PopID();
-    } else {
-        double value = render::exposureValue(control.exposure > 0.0 ? control.exposure : 1.0);
-        constexpr double kLeast = -12.0;
-        constexpr double kMost = 20.0;
-        if (ImGui::SliderScalar("##ev", ImGuiDataType_Double, &value, &kLeast, &kMost, "EV %.1f")) {
-            control.exposure = render::exposureFromValue(value);
-        }
-    }
-    if (control.exposure > 0.0) {
-        showValue("White at", formatValue(1.0 / control.exposure) + " cd/m\u00b2",
-                  "Luminance that the linear curve shows as white.");
-    }
-
-    constexpr std::array<const char*, 4> kCurves{"Linear", "Filmic", "Reinhard", "Hue"};
-    int curve = static_cast<int>(settings.draw.curve);
-    beginRow("Tone curve",
-             "Linear is true to the light and clips. Filmic rolls off towards white and deepens the dark "
-             "tones. Reinhard compresses all highlights. Hue is filmic by the brightest channel: no colour "
-             "drifts.");
-    if (ImGui::Combo("##curve", &curve, kCurves.data(), static_cast<int>(kCurves.size()))) {
-        settings.draw.curve = static_cast<render::ToneCurve>(curve);
-    }
-    beginRow(
-        "Glow",
-        "The veil that lenses and eyes spread around lamps: a twentieth of the light, blurred. Draws all "
-        "that is seen once more, small.");
-    ImGui::Checkbox("around lamps##glow", &settings.draw.glow);
-}
-
-void drawMovement(const PanelInfo& info, ViewSettings& settings, Walker& walker, PanelActions& actions) {
+void drawMovement(Walker& walker) {
     int movement = static_cast<int>(walker.movement);
     constexpr std::array<const char*, 2> kMovements{"Walk", "Fly"};
     beginRow("Movement", "Walk stays at eye height above the floor, fly goes where you look. Key: F");
@@ -161,31 +119,18 @@ void drawMovement(const PanelInfo& info, ViewSettings& settings, Walker& walker,
     double degrees = walker.verticalFov() * 180.0 / base::kPi;
     constexpr double kNarrowest = 15.0;
     constexpr double kWidest = 110.0;
-    beginRow("Field of view", "Vertical angle of the picture.");
+    beginRow("Field of view", "Vertical angle of the picture. Keys: + and -");
     if (ImGui::SliderScalar("##fov", ImGuiDataType_Double, &degrees, &kNarrowest, &kWidest, "%.0f\u00b0",
                             ImGuiSliderFlags_AlwaysClamp)) {
         walker.setVerticalFov(degrees * base::kPi / 180.0);
     }
-    beginRow("Edges",
-             "Smooth edges cost time where the processor draws; there they wait until you stand still.");
-    ImGui::Checkbox("smooth", &settings.smoothEdges);
-    if (!info.scene->cameras.empty()) {
-        beginRow("Cameras", "Go to a camera of the scene.");
-        if (ImGui::BeginCombo("##cameras", "go to ...")) {
-            for (std::size_t i = 0; i < info.scene->cameras.size(); ++i) {
-                ImGui::PushID(static_cast<int>(i));
-                const std::string& name = info.scene->cameras[i].name;
-                if (ImGui::Selectable(name.empty() ? "(unnamed)" : name.c_str())) {
-                    actions.camera = static_cast<int>(i);
-                }
-                ImGui::PopID();
-            }
-            ImGui::EndCombo();
-        }
-    }
 }
 
 }  // namespace
+
+float rightOfPanel(const ViewSettings& settings, float scale) {
+    return settings.isPanelOpen ? (kMargin + kPanelWidth) * scale : 0.0f;
+}
 
 PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Options& options, Walker& walker,
                        float scale) {
@@ -205,9 +150,9 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
         drawProgress(info, actions, scale);
         if (info.session && beginSection("Solution")) {
             actions.changedOptions |= drawSolution(info, options);
-            if (info.snapshot != nullptr) {
-                drawConvergence(info.snapshot->statistics, options.error, scale);
-            }
+            const solve::Statistics none;
+            drawConvergence(info.snapshot != nullptr ? info.snapshot->statistics : none, options.error,
+                            scale);
         }
         if (info.session && !info.lights.empty() && beginSection("Lights")) {
             actions.changedOptions |= drawLights(info, settings.lights, options);
@@ -215,42 +160,22 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
         if (beginSection("See why")) {
             drawShown(info, settings);
         }
-        if (beginSection("Light and tone")) {
-            drawExposure(settings);
+        if (beginSection("Picture")) {
+            actions.changedOptions |= drawPictureSettings(info, settings, options);
         }
-        if (beginSection("View")) {
-            if (info.session) {
-                actions.changedOptions |= drawOption("display-angle", "Roundness", options);
-            }
-            drawMovement(info, settings, walker, actions);
+        // Folded at first, so that their headings are seen in a small window.
+        if (beginSection("Moving", false)) {
+            drawMovement(walker);
         }
-        if (beginSection("Places")) {
+        if (beginSection("Places", false)) {
             actions.places = drawPlaces(info.places);
         }
-        if (beginSection("Statistics")) {
+        if (beginSection("Statistics", false)) {
             drawStatistics(info);
         }
     }
     ImGui::End();
     return actions;
-}
-
-void drawKeys(bool isCaptured, Movement movement, float scale) {
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const char* look = isCaptured ? "mouse look    Esc release" : "right drag look    Tab capture";
-    const char* other = movement == Movement::walk ? "F fly" : "F walk";
-    ImGui::SetNextWindowPos(ImVec2(display.x - kMargin * scale, display.y - kMargin * scale),
-                            ImGuiCond_Always, ImVec2(1.0f, 1.0f));
-    ImGui::SetNextWindowBgAlpha(0.75f);
-    if (ImGui::Begin("##keys", nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
-                         ImGuiWindowFlags_NoNav)) {
-        ImGui::TextColored(kTextDim,
-                           "F1 all keys    WASD move    %s    %s    C lux    I inspect    P pause    H panel",
-                           look, other);
-    }
-    ImGui::End();
 }
 
 }  // namespace fluxwalk::ui

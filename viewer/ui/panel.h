@@ -51,8 +51,6 @@ struct PanelActions {
     bool changedOptions = false;
     bool togglesPause = false;
     bool steps = false;
-    /// Index of a scene camera to go to, -1 for none.
-    int camera = -1;
     PlaceActions places;
 };
 
@@ -60,13 +58,14 @@ struct PanelActions {
 PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Options& options, Walker& walker,
                        float scale);
 
-/// Draws the keys along the bottom of the window.
-void drawKeys(bool isCaptured, Movement movement, float scale);
+/// Where the panel ends that drawPanel() draws first, in pixels from the left edge; 0 where it is hidden.
+float rightOfPanel(const ViewSettings& settings, float scale);
 
 /// Sections of the panel, each in its own file.
 void drawShown(const PanelInfo& info, ViewSettings& settings);
 void drawStatistics(const PanelInfo& info);
-/// Both return whether `options` changed.
+/// These return whether `options` changed.
+bool drawPictureSettings(const PanelInfo& info, ViewSettings& settings, solve::Options& options);
 bool drawLights(const PanelInfo& info, std::vector<LightControl>& controls, solve::Options& options);
 bool drawSolution(const PanelInfo& info, solve::Options& options);
 void drawConvergence(const solve::Statistics& statistics, double target, float scale);

@@ -9,6 +9,7 @@ namespace fluxwalk::ui {
 
 /// Where one may go.
 struct Places {
+    std::span<const scene::Camera> cameras;  ///< of the scene
     std::span<const scene::Camera> bookmarks;
     std::span<const std::string> recentFiles;
     bool isRecording = false;
@@ -18,6 +19,7 @@ struct Places {
 
 /// What the user chose there in one frame.
 struct PlaceActions {
+    int camera = -1;    ///< index of the one to go to
     int bookmark = -1;  ///< index of the one to go to
     int forget = -1;    ///< index of the one to delete
     bool keeps = false;

@@ -30,10 +30,29 @@ void drawBookmarks(const Places& places, PlaceActions& actions) {
     ImGui::EndCombo();
 }
 
+void drawCameras(const Places& places, PlaceActions& actions) {
+    beginRow("Cameras", "Views that the scene brings along.");
+    if (!ImGui::BeginCombo("##cameras", "go to ...")) {
+        return;
+    }
+    for (std::size_t i = 0; i < places.cameras.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        const std::string& name = places.cameras[i].name;
+        if (ImGui::Selectable(name.empty() ? "(unnamed)" : name.c_str())) {
+            actions.camera = static_cast<int>(i);
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
 }  // namespace
 
 PlaceActions drawPlaces(const Places& places) {
     PlaceActions actions;
+    if (!places.cameras.empty()) {
+        drawCameras(places, actions);
+    }
     drawBookmarks(places, actions);
     beginRow("Path", "Records where you go, to a file, and plays it. Keys: R records, L plays.");
     actions.togglesRecording = ImGui::Button(places.isRecording ? "Stop##record" : "Record");

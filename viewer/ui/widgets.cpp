@@ -14,12 +14,13 @@ constexpr float kLabelPart = 0.40f;
 
 }  // namespace
 
-bool beginSection(const char* title) {
+bool beginSection(const char* title, bool isOpenAtFirst) {
     ImGui::Spacing();
     ImGui::PushStyleColor(ImGuiCol_Text, kAccent);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         ImVec2(0.3f * ImGui::GetStyle().FramePadding.x, ImGui::GetStyle().FramePadding.y));
-    const bool isOpen = ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+    const bool isOpen = ImGui::CollapsingHeader(
+        title, isOpenAtFirst ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
     ImGui::PopStyleVar();
     ImGui::PopStyleColor();
     return isOpen;

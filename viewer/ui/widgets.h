@@ -5,7 +5,7 @@
 namespace fluxwalk::ui {
 
 /// Begins a foldable part of the panel; returns whether it is open.
-bool beginSection(const char* title);
+bool beginSection(const char* title, bool isOpenAtFirst = true);
 /// Writes a label with its explanation and puts the next widget beside it, as wide as the panel allows.
 void beginRow(const char* label, const char* explanation);
 /// A row that only shows a value, aligned to the right.
