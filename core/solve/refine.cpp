@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/photometry.h"
@@ -24,6 +25,8 @@ using transport::Query;
 
 /// Pairs whose coefficients are computed between two looks at the clock.
 constexpr std::size_t kGrain = 64;
+/// Pairs of a wave that are decided between two looks at who calls.
+constexpr std::size_t kStretch = 2048;
 
 class Refinement {
   public:
@@ -60,16 +63,37 @@ class Refinement {
         sortIn(decisions);
     }
 
-    // One wave: splits what is most in need of it and decides on what comes of that. False where a budget
-    // has no room for it.
-    bool runWave(const Budget& budget) {
+    enum class Wave : std::uint8_t {
+        done,
+        calledAway,
+        noRoom  ///< the budget has none for any part of it
+    };
+
+    // One wave: splits what is most in need of it and decides on what comes of that. What was not reached
+    // when called away is pending again.
+    Wave runWave(const Budget& budget, const std::function<bool(std::span<const Decision>)>& isCalledAway) {
         const std::vector<Decision> opened =
             takeNext(problem_.pending, hierarchy_, budget, problem_.links.links.size());
         if (opened.empty()) {
-            return false;
+            return Wave::noRoom;
         }
-        decideAll(openPairs(problem_.hierarchy, problem_.executor, opened));
-        return true;
+        const std::vector<Query> pairs = openPairs(problem_.hierarchy, problem_.executor, opened);
+        std::size_t next = 0;
+        for (std::size_t pair = 0; next < opened.size();) {
+            const std::span<const Decision> rest = std::span(opened).subspan(next);
+            if (isCalledAway && isCalledAway(rest)) {
+                problem_.pending.insert(problem_.pending.end(), rest.begin(), rest.end());
+                return Wave::calledAway;
+            }
+            const std::size_t first = pair;
+            for (; next < opened.size() && pair - first < kStretch; ++next) {
+                pair += countParts(hierarchy_, opened[next]);
+                note(opened[next]);
+            }
+            decideAll(std::span(pairs).subspan(first, pair - first));
+        }
+        ++problem_.statistics.counters.waves;
+        return Wave::done;
     }
 
     // From here on every link stands that can.
@@ -90,6 +114,7 @@ class Refinement {
             }
         }
         decideAll(unknown);
+        ++problem_.statistics.counters.waves;
     }
 
     // The largest error in lux of a link that stands without being fine enough, 0 for none.
@@ -97,7 +122,7 @@ class Refinement {
 
   private:
     // Coefficients of all pairs, then accept, drop or keep for the next wave.
-    void decideAll(const std::vector<Query>& pairs) {
+    void decideAll(std::span<const Query> pairs) {
         std::vector<Decision> decisions(pairs.size());
         std::vector<Counters> counts((pairs.size() + kGrain - 1) / kGrain);
         problem_.executor.forRange(pairs.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -111,7 +136,6 @@ class Refinement {
             total.kernelEvaluations += c.kernelEvaluations;
             total.certificates += c.certificates;
         }
-        ++total.waves;
         sortIn(decisions);
     }
 
@@ -124,7 +148,15 @@ class Refinement {
                 }
             } else if (d.verdict != Verdict::drop) {
                 problem_.pending.push_back(d);
+            } else {
+                note(d);
             }
+        }
+    }
+
+    void note(const Decision& d) {
+        if (problem_.keepsKnown && d.isComputed && !isCluster(d.link.a) && !isCluster(d.link.b)) {
+            problem_.known.note(d.link);
         }
     }
 
@@ -220,11 +252,15 @@ class Refinement {
              facesAway(shapeA, shapeB) || facesAway(shapeB, shapeA))) {
             return d;
         }
+        if (recall(d)) {
+            return d;
+        }
         Coefficient c;
         service_.compute(std::span(&pair, 1), std::span(&c, 1));
         count(c, counters);
         // A strict oracle is not content that no sample saw another.
         if (c.isBlocked || (c.coupling <= 0.0f && problem_.options.oracle != OracleKind::strict)) {
+            d.isComputed = true;
             return d;
         }
         // Also where the pair will be split: it must be judged as its standing link would be.
@@ -234,6 +270,24 @@ class Refinement {
         setCoefficient(d.link, c);
         judge(d);
         return d;
+    }
+
+    // Whether the pair's coefficient is known from before; then it is decided on.
+    bool recall(Decision& d) const {
+        // A strict oracle keeps pairs that no sample saw: these look like dropped ones.
+        if (problem_.options.oracle == OracleKind::strict) {
+            return false;
+        }
+        const std::optional<Link> known = problem_.known.find(d.link.a, d.link.b);
+        if (!known) {
+            return false;
+        }
+        d.isComputed = true;
+        if (known->coupling > 0.0f || known->visibilityBits != 0) {
+            d.link = *known;
+            judge(d);
+        }
+        return true;
     }
 
     // A concave element sees itself: kept as a link where that matters little, or where its kernel is one
@@ -380,17 +434,6 @@ class Refinement {
     float largestError_ = 0.0f;
 };
 
-// Links with clusters stand first.
-void orderLinks(Problem& problem) {
-    const Hierarchy& h = problem.hierarchy;
-    std::vector<Link>& links = problem.links.links;
-    const auto withClusters = std::stable_partition(links.begin(), links.end(), [&h](const Link& link) {
-        return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
-    });
-    problem.links.clusterLinks = static_cast<std::size_t>(withClusters - links.begin());
-    problem.links.index(h.nodeCount());
-}
-
 void countLinks(Problem& problem) {
     Counters& counters = problem.statistics.counters;
     counters.nodes = problem.hierarchy.nodeCount();
@@ -402,8 +445,19 @@ void countLinks(Problem& problem) {
 
 }  // namespace
 
+void orderLinks(Problem& problem) {
+    const Hierarchy& h = problem.hierarchy;
+    std::vector<Link>& links = problem.links.links;
+    const auto withClusters = std::stable_partition(links.begin(), links.end(), [&h](const Link& link) {
+        return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
+    });
+    problem.links.clusterLinks = static_cast<std::size_t>(withClusters - links.begin());
+    problem.links.index(h.nodeCount());
+}
+
 Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
-                    const std::function<bool()>& shouldStop) {
+                    const std::function<bool()>& shouldStop,
+                    const std::function<bool(std::span<const Decision>)>& isCalledAway) {
     const StageTimer timer(problem.statistics.times.refine);
     Refinement refinement(problem, threshold);
     problem.links.clusterLinks = 0;
@@ -417,14 +471,21 @@ Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
     }
     Refined refined;
     refined.hasChanged = !problem.pending.empty();
+    bool isEnding = false;
     while (!problem.pending.empty()) {
-        if (shouldStop && shouldStop()) {
+        if (isEnding || (shouldStop && shouldStop())) {
             refinement.acceptAll();
         }
-        if (!problem.pending.empty() && !refinement.runWave(budget)) {
+        if (problem.pending.empty()) {
+            break;
+        }
+        // Pairs that cannot stand are opened to the end.
+        const auto wave = refinement.runWave(budget, isEnding ? nullptr : isCalledAway);
+        if (wave == Refinement::Wave::noRoom) {
             refined.limit = budget.nearest(problem.hierarchy.nodeCount(), problem.linkCount());
             refinement.acceptAll();
         }
+        isEnding = isEnding || wave == Refinement::Wave::calledAway;
     }
     problem.statistics.largestError = std::max(threshold, static_cast<double>(refinement.largestError()));
     orderLinks(problem);

@@ -75,7 +75,9 @@ struct Solver::State {
     std::uint64_t memoryLimit() const {
         return problem.options.memoryLimit > 0 ? problem.options.memoryLimit : machineLimit;
     }
-    Footprint footprint() const { return {base, builtNodes, display.bytes(), display.shownNodes()}; }
+    Footprint footprint() const {
+        return {base + problem.known.bytes(), builtNodes, display.bytes(), display.shownNodes()};
+    }
     std::uint64_t bytes() const {
         return footprint().bytes(problem.hierarchy.nodeCount(), problem.linkCount());
     }
@@ -191,6 +193,9 @@ void Solver::tighten() {
                 ? std::max(first, problem.options.threshold)
                 : std::max({statistics.threshold, asked.threshold, problem.options.threshold});
         dropLinks(problem);
+        if (asked.turn == Turn::anew || isOver) {
+            problem.known.clear();
+        }
         if (isOver || hasTooSmallElements(problem)) {
             pruneElements(problem);
         }
@@ -245,6 +250,7 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     Problem& problem = state.problem;
     Statistics& statistics = problem.statistics;
     Run run(problem, callbacks, state.loop, state.publisher);
+    problem.keepsKnown = callbacks.newOptions != nullptr && problem.options.memoryLimit == 0;
     if (!state.loop.isStarted) {
         start();
     }
@@ -292,7 +298,9 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         }
         if (state.loop.stage == Stage::refine) {
             run.report("refining");
-            const Refined refined = refineLinks(problem, statistics.threshold, state.budget(), isStopped);
+            const Refined refined = refineLinks(
+                problem, statistics.threshold, state.budget(), isStopped,
+                [&run](std::span<const Decision> underway) { return run.isCalledAway(underway); });
             if (state.loop.isCoarsening) {
                 pruneElements(problem);
             }
