@@ -143,6 +143,17 @@ void Run::rest(double publishTime) {
 void Run::deliver(bool isFinished) {
     isHurried_ = false;
     problem_.statistics.times.total = seconds();
+    while (publisher_.count() > 0 && publisher_.shownAngle() != problem_.options.displayAngle) {
+        auto part = publisher_.makePart(callbacks_.detail ? callbacks_.detail() : Detail{}, kFirstEffect);
+        if (part == nullptr) {
+            break;
+        }
+        callbacks_.publish(std::move(part));
+        // Another angle may have been asked for by now.
+        if (isResumable_) {
+            takeNewOptions();
+        }
+    }
     callbacks_.publish(publisher_.make(callbacks_.detail ? callbacks_.detail() : Detail{}, isFinished));
 }
 

@@ -45,6 +45,11 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Whether sweeps over the same links end in the same light.
+bool sweepsAlike(const Options& a, const Options& b) {
+    return a.pullRule == b.pullRule && a.rowScaling == b.rowScaling && a.lighting == b.lighting;
+}
+
 void checkSize(const Problem& problem) {
     const std::size_t patches = problem.hierarchy.patches().size();
     if (!problem.takesClusterLinks() && patches > kMaxPairedPatches) {
@@ -89,6 +94,8 @@ struct Solver::State {
     std::uint64_t machineLimit;  ///< bytes, where the options name no limit
     std::size_t builtNodes;
     LoopState loop;
+    /// Of the last sweeps to the end, as long as what they left stands.
+    std::optional<Options> convergedWith;
     Publisher publisher;
 };
 
@@ -275,7 +282,20 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     const bool isEmpty = problem.hierarchy.patches().empty() || state.loop.ambient <= 0.0;
     Limit limit = Limit::none;
     const bool isBetweenLevels = state.loop.stage == Stage::tighten && !run.wantsRelight();
-    for (bool isDone = isEmpty || (isBetweenLevels && !statistics.history.empty() && isSettled()); !isDone;) {
+    const bool isAtRest = isBetweenLevels && !statistics.history.empty() && isSettled();
+    bool isDone = isEmpty || isAtRest;
+    const std::optional<Options> converged = std::exchange(state.convergedWith, std::nullopt);
+    if (isAtRest && converged && sweepsAlike(*converged, problem.options)) {
+        // Even the last sweeps have been made. Showing that takes a while: more may be asked for meanwhile.
+        run.publish(true);
+        isDone = isSettled() && !run.wantsRelight();
+        if (isDone && sweepsAlike(*converged, problem.options)) {
+            state.convergedWith = problem.options;
+            return run.outcome(limit);
+        }
+        run.takeTurn();
+    }
+    while (!isDone) {
         if (run.wantsRelight()) {
             relight();
         }
@@ -335,6 +355,9 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     run.report("converging");
     run.beginLastSweeps();
     run.sweep(kFinalSweeps, kFinalResidual);
+    if (!run.isCut()) {
+        state.convergedWith = problem.options;
+    }
     run.audit(kFinalAuditRays);
     run.publish(true);
     statistics.times.total = run.seconds();
