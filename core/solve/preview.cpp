@@ -15,6 +15,36 @@ bool isLink(const Decision& d) {
     return d.isComputed && d.canStand();
 }
 
+// Lights leaves by `ambient` from where no link leads yet: links of a closed scene sum to 1.
+void fillUp(Problem& problem, double ambient) {
+    hierarchy::Hierarchy& h = problem.hierarchy;
+    std::vector<double> share(h.nodeCount(), 0.0);
+    const auto isElement = [&h](NodeId id) {
+        return id != NodeId::none && h.kind(id) == hierarchy::NodeKind::element;
+    };
+    for (const hierarchy::Link& link : problem.links.links) {
+        if (isElement(link.a) && isElement(link.b)) {
+            share[base::index(link.a)] += static_cast<double>(link.transfer());
+            share[base::index(link.b)] += link.a == link.b ? 0.0 : static_cast<double>(link.transfer());
+        }
+    }
+    // Parents come before their children.
+    for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
+        const NodeId id{i};
+        if (!isElement(id)) {
+            continue;
+        }
+        const auto area = static_cast<double>(h.shape(id).exposedArea());
+        share[i] = area > 0.0 ? share[i] / area : 1.0;
+        if (isElement(h.parent(id))) {
+            share[i] += share[base::index(h.parent(id))];
+        }
+        if (h.isLeaf(id)) {
+            h.light(id).irradiance += Rgb(static_cast<float>(ambient * std::max(0.0, 1.0 - share[i])));
+        }
+    }
+}
+
 }  // namespace
 
 bool canPreview(const Problem& problem, std::span<const Decision> underway) {
@@ -22,7 +52,7 @@ bool canPreview(const Problem& problem, std::span<const Decision> underway) {
            std::all_of(underway.begin(), underway.end(), isLink) && problem.linkCount() + underway.size() > 0;
 }
 
-void preview(Problem& problem, std::span<const Decision> underway, int most, double residual,
+void preview(Problem& problem, std::span<const Decision> underway, const PreviewOptions& options,
              const std::function<void()>& show) {
     hierarchy::Hierarchy& h = problem.hierarchy;
     std::vector<hierarchy::Light> lights;
@@ -41,7 +71,9 @@ void preview(Problem& problem, std::span<const Decision> underway, int most, dou
     links = accepted.links;
     for (const std::span<const Decision> all : {std::span<const Decision>(pending), underway}) {
         for (const Decision& d : all) {
-            links.push_back(d.link);
+            if (isLink(d)) {
+                links.push_back(d.link);
+            }
         }
     }
     orderLinks(problem);
@@ -49,11 +81,14 @@ void preview(Problem& problem, std::span<const Decision> underway, int most, dou
     problem.statistics.counters.nodes = h.nodeCount();
     problem.statistics.counters.leaves = h.leafCount();
     Sweeper sweeper(problem);
-    for (int i = 0; i < most; ++i) {
+    for (int i = 0; i < options.mostSweeps; ++i) {
         problem.statistics.residual = sweeper.sweep();
-        if (problem.statistics.residual <= residual) {
+        if (problem.statistics.residual <= options.residual) {
             break;
         }
+    }
+    if (options.ambient > 0.0) {
+        fillUp(problem, options.ambient);
     }
     problem.statistics.meanIrradiance = meanIrradiance(h);
     show();

@@ -12,9 +12,16 @@ namespace fluxwalk::solve {
 /// tile the scene.
 bool canPreview(const Problem& problem, std::span<const Decision> underway);
 
-/// Takes them for links, sweeps over them, calls `show`, and puts everything back as it was: what is shown,
-/// and when, decides nothing. Sweeps until one changes no more than `residual` of the power, `most` times.
-void preview(Problem& problem, std::span<const Decision> underway, int most, double residual,
+struct PreviewOptions {
+    int mostSweeps = 2;
+    double residual = 0.04;  ///< relative change of power in a sweep that is the last one
+    /// Radiosity of whatever a leaf has no link to yet, lm/m2.
+    double ambient = 0.0;
+};
+
+/// Takes those that could stand for links, sweeps over them, calls `show`, and puts everything back as it
+/// was: what is shown, and when, decides nothing.
+void preview(Problem& problem, std::span<const Decision> underway, const PreviewOptions& options,
              const std::function<void()>& show);
 
 }  // namespace fluxwalk::solve

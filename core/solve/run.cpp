@@ -19,12 +19,12 @@ constexpr int kSweepsAfterStop = 2;
 constexpr double kPublishInterval = 0.1;  ///< seconds
 /// Of the time, snapshots take no more than about one part in this many.
 constexpr double kPublishShare = 8.0;
-/// The first picture waits for its third sweep or so: a millisecond more, and interreflection is there.
+/// The first level's picture waits for its third sweep or so: a millisecond more, and interreflection is
+/// there.
 constexpr double kFirstResidual = 0.04;
 /// What new options do is shown after so many seconds, as far as it has come by then.
 constexpr double kFirstEffect = 0.05;
-/// Pictures from the midst of a refinement: of the first light, and of light that has been there before.
-constexpr int kFirstSweeps = 4;
+/// Of pictures from the midst of a refinement.
 constexpr int kPreviewSweeps = 2;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -44,7 +44,7 @@ Run::Run(Problem& problem, const Callbacks& callbacks, LoopState& loop, Publishe
       loop_(loop),
       publisher_(publisher),
       before_(problem.statistics.times.total),
-      due_(start_ + toDuration(kFirstEffect)) {}
+      due_(publisher.count() > 0 ? start_ + toDuration(kFirstEffect) : start_) {}
 
 void Run::takeNewOptions() {
     const auto changed = callbacks_.newOptions ? callbacks_.newOptions() : std::nullopt;
@@ -125,9 +125,8 @@ bool Run::isTimeToPublish() const {
 }
 
 void Run::publish(bool isFinished) {
-    const bool isTooEarly = publisher_.count() > 0
-                                ? !isTimeToPublish()
-                                : problem_.statistics.residual > kFirstResidual && !isHurried_;
+    const bool isRough = problem_.statistics.history.empty() && problem_.statistics.residual > kFirstResidual;
+    const bool isTooEarly = !isHurried_ && (isRough || !isTimeToPublish());
     if (!callbacks_.publish || (!isFinished && isTooEarly)) {
         return;
     }
@@ -165,17 +164,22 @@ bool Run::isCalledAway(std::span<const Decision> underway) {
         return true;
     }
     // Limits of memory count what refining takes, and not a second set of links.
+    if (!callbacks_.publish || problem_.options.memoryLimit > 0 || !isTimeToPublish()) {
+        return false;
+    }
+    // Until there has been a whole picture, a guess stands for what has no links yet.
+    const bool isWhole = canPreview(problem_, underway);
     const bool isFirst = publisher_.count() == 0;
-    if (callbacks_.publish && (isFirst || isTimeToPublish()) && problem_.options.memoryLimit == 0 &&
-        canPreview(problem_, underway)) {
+    if (isWhole || (problem_.statistics.history.empty() && loop_.ambient > 0.0)) {
         const Clock::time_point start = Clock::now();
-        preview(problem_, underway, isFirst ? kFirstSweeps : kPreviewSweeps, kFirstResidual, [this] {
+        preview(problem_, underway, {kPreviewSweeps, kFirstResidual, isWhole ? 0.0 : loop_.ambient}, [this] {
             if (callbacks_.settled) {
                 callbacks_.settled();
             }
             deliver(false);
         });
-        rest(secondsSince(start));
+        // The first one makes all meshes, which takes much longer than their light.
+        rest(isFirst ? 0.0 : secondsSince(start));
     }
     return false;
 }

@@ -10,6 +10,8 @@ namespace fluxwalk::solve {
 
 /// One call of Solver::solve: its clock, its stops and whom it tells.
 class Run {
+    using Clock = std::chrono::steady_clock;
+
   public:
     Run(Problem& problem, const Callbacks& callbacks, LoopState& loop, Publisher& publisher);
 
@@ -27,6 +29,8 @@ class Run {
     bool wantsRelight() const;
     /// The next snapshot need not wait for its time.
     void hurry() { isHurried_ = true; }
+    /// Its time has come.
+    void makeDue() { due_ = Clock::now(); }
 
     /// Sweeps, `most` times in all, until one changes no more than `residual` of the power.
     void sweep(int most, double residual);
@@ -48,8 +52,6 @@ class Run {
     /// Puts the next snapshot off after one that took so many seconds.
     void rest(double publishTime);
     void tell(Moment moment);
-
-    using Clock = std::chrono::steady_clock;
 
     Problem& problem_;
     const Callbacks& callbacks_;

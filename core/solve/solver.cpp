@@ -326,6 +326,9 @@ Outcome Solver::solve(const Callbacks& callbacks) {
             }
             state.loop.hasChanged = refined.hasChanged;
             limit = refined.limit;
+            if (statistics.history.empty()) {
+                run.makeDue();
+            }
             state.loop.stage = Stage::sweep;
             state.loop.sweeps = 0;
         }
