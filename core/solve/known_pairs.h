@@ -12,7 +12,8 @@ namespace fluxwalk::solve {
 using base::NodeId;
 
 /// Coefficients of pairs that were refined or dropped. They are pure functions of their pairs: where links
-/// are found again from the root, these need not be computed again, and make the same links.
+/// are found again from the root, these need not be computed again, and make the same links (but for the mark
+/// of certain visibility, which may come from the shaft of another ancestor).
 class KnownPairs {
   public:
     /// A pair that was opened, or with no coupling one that exchanges nothing.
