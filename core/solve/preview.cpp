@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/solve/first_guess.h"
-#include "core/solve/refine.h"
+#include "core/solve/link_order.h"
 #include "core/solve/sweep.h"
 
 namespace fluxwalk::solve {
@@ -77,9 +77,7 @@ void preview(Problem& problem, std::span<const Decision> underway, const Preview
         }
     }
     orderLinks(problem);
-    problem.statistics.counters.links = links.size();
-    problem.statistics.counters.nodes = h.nodeCount();
-    problem.statistics.counters.leaves = h.leafCount();
+    countLinks(problem);
     Sweeper sweeper(problem);
     for (int i = 0; i < options.mostSweeps; ++i) {
         problem.statistics.residual = sweeper.sweep();

@@ -9,7 +9,9 @@
 #include "core/base/photometry.h"
 #include "core/hierarchy/local_frame.h"
 #include "core/solve/assess_link.h"
+#include "core/solve/cluster_pairs.h"
 #include "core/solve/facing.h"
+#include "core/solve/link_order.h"
 #include "core/transport/coefficients.h"
 
 namespace fluxwalk::solve {
@@ -210,14 +212,14 @@ class Refinement {
                 d.verdict = splitCluster(link.a, link.b);
                 return;
             }
-            d.error = boundExchange(link.a, link.b);
+            d.error = boundOf(link.a, link.b);
             if (isMinorPair(link.a, link.b)) {
                 d.verdict = Verdict::accept;
                 return;
             }
             // Points prove nothing.
             const bool isStrict = problem_.options.oracle == OracleKind::strict;
-            if (isStrict || !areApart(link.a, link.b) || link.coupling <= 0.0f) {
+            if (isStrict || !areApart(hierarchy_, link.a, link.b) || link.coupling <= 0.0f) {
                 d.verdict = splitCluster(link.a, link.b);
                 return;
             }
@@ -328,17 +330,8 @@ class Refinement {
         return isA ? Verdict::splitA : Verdict::splitB;
     }
 
-    // All that a pair could exchange, were nothing lost on the way, as an error in lux.
-    float boundExchange(NodeId a, NodeId b) const {
-        const auto radiosity = [this](NodeId id) {
-            const hierarchy::Light& light = hierarchy_.light(id);
-            return base::channelMean(light.radiosity) + light.range();
-        };
-        const float area = std::min(hierarchy_.shape(a).exposedArea(), hierarchy_.shape(b).exposedArea());
-        return limitError(area * std::max(radiosity(a), radiosity(b)) / sceneArea_);
-    }
-
-    bool isMinorPair(NodeId a, NodeId b) const { return boundExchange(a, b) <= threshold_; }
+    float boundOf(NodeId a, NodeId b) const { return boundExchange(hierarchy_, a, b); }
+    bool isMinorPair(NodeId a, NodeId b) const { return boundOf(a, b) <= threshold_; }
 
     // Light sources without area stay with single patches, and nothing is shared through a closed wall or by
     // the two sides of a lamp.
@@ -349,28 +342,6 @@ class Refinement {
         }
         return problem_.takesClusterLinks() && hierarchy_.shape(a).area > 0.0f &&
                hierarchy_.shape(b).area > 0.0f && hierarchy_.isInOneRoom(a) && hierarchy_.isInOneRoom(b);
-    }
-
-    // Whether points stand for a cluster in its exchange with another node: clusters must be apart by their
-    // spheres, an element, whose factor is exact, by its box.
-    bool areApart(NodeId a, NodeId b) const {
-        const Shape& shapeA = hierarchy_.shape(a);
-        const Shape& shapeB = hierarchy_.shape(b);
-        if (shapeA.cornerCount == 0 && shapeB.cornerCount == 0) {
-            return glm::distance(shapeA.center, shapeB.center) > shapeA.radius + shapeB.radius;
-        }
-        const Shape& cluster = shapeA.cornerCount == 0 ? shapeA : shapeB;
-        const Shape& element = shapeA.cornerCount == 0 ? shapeB : shapeA;
-        hierarchy::Extent box{element.center - element.radius, element.center + element.radius};
-        if (element.isPlanar) {
-            box = {element.corners[0], element.corners[0]};
-            for (std::uint32_t i = 1; i < element.cornerCount; ++i) {
-                box.lower = glm::min(box.lower, element.corners[i]);
-                box.upper = glm::max(box.upper, element.corners[i]);
-            }
-        }
-        const base::Vec3 nearest = glm::clamp(cluster.center, box.lower, box.upper);
-        return glm::distance(nearest, cluster.center) > cluster.radius;
     }
 
     Decision decideClusters(const Query& pair, Counters& counters) const {
@@ -385,9 +356,9 @@ class Refinement {
             return d;
         }
         const bool mayLink = mayLinkClusters(pair.a, pair.b);
-        if (!mayLink || (!isMinorPair(pair.a, pair.b) && !areApart(pair.a, pair.b))) {
+        if (!mayLink || (!isMinorPair(pair.a, pair.b) && !areApart(hierarchy_, pair.a, pair.b))) {
             d.verdict = splitCluster(pair.a, pair.b);
-            d.error = mayLink ? boundExchange(pair.a, pair.b) : INFINITY;
+            d.error = mayLink ? boundOf(pair.a, pair.b) : INFINITY;
             return d;
         }
         if (a.exposedArea() <= 0.0f || b.exposedArea() <= 0.0f) {
@@ -434,26 +405,7 @@ class Refinement {
     float largestError_ = 0.0f;
 };
 
-void countLinks(Problem& problem) {
-    Counters& counters = problem.statistics.counters;
-    counters.nodes = problem.hierarchy.nodeCount();
-    counters.leaves = problem.hierarchy.leafCount();
-    counters.links = problem.links.links.size();
-    counters.bytesNodes = counters.nodes * Hierarchy::bytesPerNode();
-    counters.bytesLinks = problem.links.bytes();
-}
-
 }  // namespace
-
-void orderLinks(Problem& problem) {
-    const Hierarchy& h = problem.hierarchy;
-    std::vector<Link>& links = problem.links.links;
-    const auto withClusters = std::stable_partition(links.begin(), links.end(), [&h](const Link& link) {
-        return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
-    });
-    problem.links.clusterLinks = static_cast<std::size_t>(withClusters - links.begin());
-    problem.links.index(h.nodeCount());
-}
 
 Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
                     const std::function<bool()>& shouldStop,

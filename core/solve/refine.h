@@ -25,7 +25,4 @@ Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
                     const std::function<bool()>& shouldStop,
                     const std::function<bool(std::span<const Decision>)>& isCalledAway = {});
 
-/// Puts links with clusters first and lists the ends, after links changed.
-void orderLinks(Problem& problem);
-
 }  // namespace fluxwalk::solve
