@@ -65,6 +65,18 @@ double CellShape::turnAlong(Axis axis) const {
     return most;
 }
 
+bool CellShape::turnsBeyond(double angle) const {
+    constexpr double kRounding = 1.0 + 1e-9;
+    const double chord = 2.0 * std::sin(0.5 * angle) * kRounding;
+    for (unsigned k = 0; k < 4; ++k) {
+        const Vec3d between = normals_[k] - normals_[k + 4];
+        if (glm::dot(between, between) > chord * chord) {
+            return true;
+        }
+    }
+    return false;
+}
+
 double CellShape::riseOf(unsigned side) const {
     return glm::distance(middle(side), 0.5 * (corner(side) + corner(side + 1)));
 }

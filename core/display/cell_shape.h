@@ -16,6 +16,9 @@ class CellShape {
     double longestAlong(Axis axis) const;
     /// How far the normal turns along an axis, at most, in radians (small turns; larger ones are larger).
     double turnAlong(Axis axis) const;
+    /// Whether two of its normals are more than `angle` apart (radians, below pi); others may be all the
+    /// same.
+    bool turnsBeyond(double angle) const;
     /// Rise of side k, between corners k and k + 1, over its chord.
     double riseOf(unsigned side) const;
     /// The same relative to half of the chord: tan(a / 2) for an arc that turns by 2 a.

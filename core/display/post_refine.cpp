@@ -66,13 +66,15 @@ class Refiner {
         leafCount_ = cells_.size();
         tree_.emplace(topology_, points_, cells_);
         for (std::size_t i = 0; i < cells_.size(); ++i) {
+            isCompact_.resize(cells_.size(), 0);
             cutForCurvature(i);
         }
         cutForShape();
         if (cells_.size() == sources_.size()) {
             return {{}, PointTable(0)};
         }
-        points_ = PointTable(2 * leafCount_);
+        // About one corner for each quad, half a one for each triangle.
+        points_ = PointTable(leafCount_ + leafCount_ / 8);
         numberAll();
         while (balanceAll()) {
             cutForShape();
@@ -137,18 +139,29 @@ class Refiner {
         }
     }
 
+    bool isLong(const CellShape& shape) const {
+        return shape.isLonger(Axis::x, kLong) || shape.isLonger(Axis::y, kLong);
+    }
+
     Cuts triangleCuts(std::size_t i) const {
         const Cell& cell = cells_[i];
         const Region& region = regions_[i];
         if (!mayRefine(cell, Axis::x)) {
             return {};
         }
-        bool isBent = surface_.bounds(cell.patch, region).normals.halfAngle > options_.curvatureAngle;
+        if (!surface_.normalsLieWithin(cell.patch, region, options_.curvatureAngle)) {
+            return {true, true};
+        }
+        std::array<Vec3d, 3> corners{};
+        for (unsigned k = 0; k < 3; ++k) {
+            corners[k] = surface_.evaluate(cell.patch, region.corners[k]).position;
+        }
+        bool isBent = false;
         for (unsigned k = 0; k < 3 && !isBent; ++k) {
             const Vec2d& a = region.corners[k];
             const Vec2d& b = region.corners[(k + 1) % 3];
-            const Vec3d from = surface_.evaluate(cell.patch, a).position;
-            const Vec3d to = surface_.evaluate(cell.patch, b).position;
+            const Vec3d& from = corners[k];
+            const Vec3d& to = corners[(k + 1) % 3];
             const Vec3d middle =
                 surface_.evaluate(cell.patch, surface_.splitPoint(cell.patch, a, b)).position;
             isBent = glm::distance(middle, 0.5 * (from + to)) > 0.5 * bend_ * glm::distance(from, to);
@@ -156,16 +169,17 @@ class Refiner {
         return {isBent, isBent};
     }
 
-    Cuts curvatureCuts(std::size_t i) const {
+    Cuts curvatureCuts(std::size_t i) {
         const Cell& cell = cells_[i];
         const CellShape shape = shapeOf(i);
+        isCompact_[i] = isLong(shape) ? 0 : 1;
         Cuts cuts;
         for (unsigned side = 0; side < 4; ++side) {
             if (isTooBent(cell, shape, side)) {
                 (side % 2 == 0 ? cuts.x : cuts.y) = true;
             }
         }
-        if (surface_.bounds(cell.patch, regions_[i]).normals.halfAngle > options_.curvatureAngle) {
+        if (!(cuts.x && cuts.y) && !hasCommonAxis(i, shape)) {
             const double alongX = shape.turnAlong(Axis::x);
             const double alongY = shape.turnAlong(Axis::y);
             // A bound that is wider than what turns is not known to be so along one axis.
@@ -186,6 +200,15 @@ class Refiner {
             }
         }
         return cuts;
+    }
+
+    // Normals further apart than the cone is wide tell at once that there is none.
+    bool hasCommonAxis(std::size_t i, const CellShape& shape) const {
+        const double angle = options_.curvatureAngle;
+        if (angle < 0.5 * base::kPi && shape.turnsBeyond(2.0 * angle)) {
+            return false;
+        }
+        return surface_.normalsLieWithin(cells_[i].patch, regions_[i], angle);
     }
 
     bool isTooBent(const Cell& cell, const CellShape& shape, unsigned side) const {
@@ -211,7 +234,7 @@ class Refiner {
     void cutForShape() {
         for (; shaped_ < cells_.size(); ++shaped_) {
             if (cells_[shaped_].childCount != 0 || !isQuad(shaped_) || options_.leastAngle <= 0.0 ||
-                leafCount_ >= mostCells_) {
+                leafCount_ >= mostCells_ || (shaped_ < isCompact_.size() && isCompact_[shaped_] != 0)) {
                 continue;
             }
             const CellShape shape = shapeOf(shaped_);
@@ -274,6 +297,8 @@ class Refiner {
     PointTable points_;
     std::vector<Cell> cells_;
     std::vector<Region> regions_;  ///< parallel to cells_
+    /// Cells that are known not to be long, of the first ones.
+    std::vector<std::uint8_t> isCompact_;
     std::optional<CellTree> tree_;
     std::size_t leafCount_ = 0;
     /// Cells whose shape was looked at, and that have their points.

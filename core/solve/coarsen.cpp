@@ -1,5 +1,7 @@
 #include "core/solve/coarsen.h"
 
+#include <span>
+
 namespace fluxwalk::solve {
 
 namespace {
@@ -14,6 +16,9 @@ bool asksForCoarser(const Problem& problem) {
 }
 
 void dropLinks(Problem& problem) {
+    if (problem.keepsKnown) {
+        problem.known.takeIn(std::span(problem.links.links).subspan(problem.links.clusterLinks));
+    }
     problem.links = {};
     problem.pending.clear();
 }
@@ -43,6 +48,7 @@ void pruneElements(Problem& problem) {
         link.a = places[base::index(link.a)];
         link.b = places[base::index(link.b)];
     }
+    problem.known.move(places);
     problem.links.index(h.nodeCount());
     Counters& counters = problem.statistics.counters;
     counters.nodes = h.nodeCount();

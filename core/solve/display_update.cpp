@@ -1,6 +1,7 @@
 #include "core/solve/display_update.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 #include "core/base/photometry.h"
@@ -39,63 +40,87 @@ DisplayUpdate::DisplayUpdate(Problem& problem) : problem_(problem) {
     });
 }
 
-void DisplayUpdate::rebuild(double curvatureAngle, std::vector<Shown>& all) {
-    const StageTimer timer(problem_.statistics.times.display);
+void DisplayUpdate::rebuildObject(std::size_t o, const display::MeshOptions& options, Workspace& work,
+                                  Shown& shown) {
     const hierarchy::Hierarchy& h = problem_.hierarchy;
-    shownNodes_ = h.nodeCount();
-    display::MeshOptions options;
-    options.curvatureAngle = curvatureAngle;
-    problem_.executor.forRange(patchesOf_.size(), 1, [&](std::size_t begin, std::size_t end) {
-        std::vector<display::Leaf> leaves;
-        std::vector<NodeId> stack;
-        for (std::size_t o = begin; o < end; ++o) {
-            leaves.clear();
-            // Flat objects are shown alike for any angle.
-            Shown& shown = isCurved_[o] != 0 ? all[o] : shown_[o];
-            std::uint64_t shapeDigest =
-                isCurved_[o] != 0 ? base::mix(std::bit_cast<std::uint64_t>(curvatureAngle)) : 1;
-            std::uint64_t digest = 1;
-            for (const NodeId patch : patchesOf_[o]) {
-                stack.push_back(patch);
-                while (!stack.empty()) {
-                    const NodeId id = stack.back();
-                    stack.pop_back();
-                    if (!h.isLeaf(id)) {
-                        for (unsigned c = 4; c-- > 0;) {
-                            stack.push_back(h.child(id, c));
-                        }
-                        continue;
-                    }
-                    const hierarchy::ElementName name = h.name(id);
-                    const Rgb e = h.light(id).irradiance;
-                    const hierarchy::Shape& shape = h.shape(id);
-                    // What lies in a narrow gap is known to be dark; of what lies in a solid nothing is
-                    // known.
-                    const bool isDark = shape.isCovered && shape.exposedCells == 0;
-                    const float exposed = isDark ? 1.0f : shape.exposed;
-                    leaves.push_back({name.patch, name.back, name.path, e, exposed});
-                    shapeDigest = base::mix(shapeDigest ^ name.path) + 2 * std::uint64_t{name.patch} +
-                                  (name.back ? 1 : 0) +
-                                  (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(exposed)) << 32);
-                    digest = base::mix(digest ^
-                                       (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
-                                        std::bit_cast<std::uint32_t>(e.g))) +
-                             std::bit_cast<std::uint32_t>(e.b);
+    std::vector<display::Leaf>& leaves = work.leaves;
+    std::vector<NodeId>& stack = work.stack;
+    leaves.clear();
+    // Flat objects are shown alike for any angle.
+    std::uint64_t shapeDigest =
+        isCurved_[o] != 0 ? base::mix(std::bit_cast<std::uint64_t>(options.curvatureAngle)) : 1;
+    std::uint64_t digest = 1;
+    for (const NodeId patch : patchesOf_[o]) {
+        stack.push_back(patch);
+        while (!stack.empty()) {
+            const NodeId id = stack.back();
+            stack.pop_back();
+            if (!h.isLeaf(id)) {
+                for (unsigned c = 4; c-- > 0;) {
+                    stack.push_back(h.child(id, c));
                 }
-            }
-            digest = base::mix(digest ^ shapeDigest);
-            if (leaves.empty() || digest == shown.digest) {
                 continue;
             }
-            const bool isSameShape = shown.digest != 0 && shown.shape == shapeDigest;
-            shown.digest = digest;
-            shown.shape = shapeDigest;
-            shown.meshes = isSameShape ? display::revalueDisplayMeshes(shown.meshes, leaves)
-                                       : display::buildDisplayMeshes(
-                                             *topologies_[o], static_cast<std::uint32_t>(o),
-                                             problem_.scene->objects[o].material, leaves, options);
+            const hierarchy::ElementName name = h.name(id);
+            const Rgb e = h.light(id).irradiance;
+            const hierarchy::Shape& shape = h.shape(id);
+            // What lies in a narrow gap is known to be dark; of what lies in a solid nothing is known.
+            const bool isDark = shape.isCovered && shape.exposedCells == 0;
+            const float exposed = isDark ? 1.0f : shape.exposed;
+            leaves.push_back({name.patch, name.back, name.path, e, exposed});
+            shapeDigest = base::mix(shapeDigest ^ name.path) + 2 * std::uint64_t{name.patch} +
+                          (name.back ? 1 : 0) +
+                          (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(exposed)) << 32);
+            digest = base::mix(digest ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
+                                         std::bit_cast<std::uint32_t>(e.g))) +
+                     std::bit_cast<std::uint32_t>(e.b);
+        }
+    }
+    digest = base::mix(digest ^ shapeDigest);
+    if (leaves.empty() || digest == shown.digest) {
+        return;
+    }
+    const bool isSameShape = shown.digest != 0 && shown.shape == shapeDigest;
+    shown.digest = digest;
+    shown.shape = shapeDigest;
+    shown.meshes = isSameShape
+                       ? display::revalueDisplayMeshes(shown.meshes, leaves)
+                       : display::buildDisplayMeshes(*topologies_[o], static_cast<std::uint32_t>(o),
+                                                     problem_.scene->objects[o].material, leaves, options);
+}
+
+bool DisplayUpdate::rebuild(double curvatureAngle, std::vector<Shown>& all, Clock::time_point until) {
+    const StageTimer timer(problem_.statistics.times.display);
+    shownNodes_ = problem_.hierarchy.nodeCount();
+    display::MeshOptions options;
+    options.curvatureAngle = curvatureAngle;
+    // The largest first, so that threads end together; but in haste the smallest, so that many are seen.
+    const bool isHasty = until != Clock::time_point::max();
+    std::vector<std::size_t> sizes;
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t o = 0; o < patchesOf_.size(); ++o) {
+        std::size_t size = patchesOf_[o].size();
+        for (const auto& mesh : shown_[o].meshes.meshes) {
+            size += mesh->triangles.size();
+        }
+        sizes.push_back(size);
+        order.push_back(o);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return isHasty ? sizes[a] < sizes[b] : sizes[a] > sizes[b];
+    });
+    std::atomic<std::size_t> next = 0;
+    problem_.executor.forRange(problem_.executor.threadCount(), 1, [&](std::size_t, std::size_t) {
+        Workspace work;
+        while (next < order.size() && Clock::now() < until) {
+            const std::size_t i = next++;
+            if (i < order.size()) {
+                const std::size_t o = order[i];
+                rebuildObject(o, options, work, isCurved_[o] != 0 ? all[o] : shown_[o]);
+            }
         }
     });
+    return next >= order.size();
 }
 
 std::uint64_t DisplayUpdate::bytes() const {
@@ -112,8 +137,16 @@ std::uint64_t DisplayUpdate::bytes() const {
     return kMaking * bytes + layouts;
 }
 
+bool DisplayUpdate::refreshUntil(Clock::time_point until) {
+    return rebuild(problem_.options.displayAngle * base::kPi / 180.0, shown_, until);
+}
+
 scene::LitMeshes DisplayUpdate::refresh() {
-    rebuild(problem_.options.displayAngle * base::kPi / 180.0, shown_);
+    refreshUntil(Clock::time_point::max());
+    return meshes();
+}
+
+scene::LitMeshes DisplayUpdate::meshes() const {
     scene::LitMeshes all;
     for (const Shown& object : shown_) {
         all.insert(all.end(), object.meshes.meshes.begin(), object.meshes.meshes.end());
@@ -133,7 +166,7 @@ std::vector<const display::CellTable*> DisplayUpdate::tables() const {
 
 std::vector<Rgb> DisplayUpdate::valuesAt(const std::vector<Probe>& probes) {
     // What is refined for the eye carries the same light.
-    rebuild(base::kPi, probed_);
+    rebuild(base::kPi, probed_, Clock::time_point::max());
     std::vector<Rgb> values;
     values.reserve(probes.size());
     for (const Probe& p : probes) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include "core/display/display_mesh.h"
 #include "core/solve/probes.h"
 
@@ -13,6 +15,12 @@ class DisplayUpdate {
 
     /// Meshes of the present solution, in the order of the objects.
     scene::LitMeshes refresh();
+
+    /// The same as far as there is time, the smallest objects first; the others stay as they were shown last.
+    /// Whether none is left. At a first time all must be made.
+    bool refreshUntil(std::chrono::steady_clock::time_point until);
+    /// As they were made last.
+    scene::LitMeshes meshes() const;
 
     /// Where the cells of these meshes are; until the next refresh().
     std::vector<const display::CellTable*> tables() const;
@@ -33,8 +41,17 @@ class DisplayUpdate {
         std::uint64_t digest = 0;  ///< of both
     };
 
-    /// Rebuilds what changed; curved surfaces with the given curvatureAngle (radians).
-    void rebuild(double curvatureAngle, std::vector<Shown>& all);
+    using Clock = std::chrono::steady_clock;
+    /// Of one thread.
+    struct Workspace {
+        std::vector<display::Leaf> leaves;
+        std::vector<NodeId> stack;
+    };
+
+    /// Rebuilds what changed, as long as there is time; curved surfaces with the given curvatureAngle
+    /// (radians). Whether all is done.
+    bool rebuild(double curvatureAngle, std::vector<Shown>& all, Clock::time_point until);
+    void rebuildObject(std::size_t o, const display::MeshOptions& options, Workspace& work, Shown& shown);
     /// Where what probes read of an object is.
     std::vector<Shown>& probedOf(std::size_t object) { return isCurved_[object] != 0 ? probed_ : shown_; }
 

@@ -37,8 +37,7 @@ class Growth {
 
     void add(const Decision& d) {
         const NodeId id = splitEnd(d);
-        const std::uint64_t n = h_.childCount(id);
-        links += (d.verdict == Verdict::splitSelf ? n * (n + 1) / 2 : n) - 1;
+        links += countParts(h_, d) - 1;
         if (needsChildren(h_, id) && isCounted_[base::index(id)] == 0) {
             isCounted_[base::index(id)] = 1;
             nodes += 4;
@@ -145,6 +144,11 @@ std::vector<Decision> takeNext(std::vector<Decision>& pending, const Hierarchy& 
         isTaken[i] = 1;
     }
     return extract(pending, isTaken);
+}
+
+std::size_t countParts(const Hierarchy& h, const Decision& d) {
+    const std::size_t n = h.childCount(splitEnd(d));
+    return d.verdict == Verdict::splitSelf ? n * (n + 1) / 2 : n;
 }
 
 std::vector<Query> openPairs(Hierarchy& h, const base::Executor& executor,

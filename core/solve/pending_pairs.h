@@ -33,6 +33,9 @@ struct Decision {
 std::vector<Decision> takeNext(std::vector<Decision>& pending, const hierarchy::Hierarchy& h,
                                const Budget& budget, std::size_t standing);
 
+/// Into how many pairs opening makes one.
+std::size_t countParts(const hierarchy::Hierarchy& h, const Decision& d);
+
 /// Splits the nodes that need children and returns the pairs that replace the opened ones, in their order.
 std::vector<transport::Query> openPairs(hierarchy::Hierarchy& h, const base::Executor& executor,
                                         const std::vector<Decision>& opened);

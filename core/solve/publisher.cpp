@@ -5,9 +5,22 @@
 namespace fluxwalk::solve {
 
 std::shared_ptr<const Snapshot> Publisher::make(const Detail& detail, bool isFinished) {
+    display_.refresh();
+    shownAngle_ = problem_.options.displayAngle;
+    return describe(detail, isFinished);
+}
+
+std::shared_ptr<const Snapshot> Publisher::makePart(const Detail& detail, double seconds) {
+    const auto until =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                               std::chrono::duration<double>(seconds));
+    return display_.refreshUntil(until) ? nullptr : describe(detail, false);
+}
+
+std::shared_ptr<const Snapshot> Publisher::describe(const Detail& detail, bool isFinished) {
     auto snapshot = std::make_shared<Snapshot>();
     snapshot->sequence = ++count_;
-    snapshot->meshes = display_.refresh();
+    snapshot->meshes = display_.meshes();
     snapshot->statistics = problem_.statistics;
     snapshot->finished = isFinished;
     snapshot->lighting = problem_.hierarchy.lighting();

@@ -13,12 +13,21 @@ class Publisher {
     /// The present solution. Links and light must agree: after a sweep.
     std::shared_ptr<const Snapshot> make(const Detail& detail, bool isFinished);
 
+    /// What was made of the displayed objects so far, while others are still shown as in the last snapshot;
+    /// nothing once none is left. At most about `seconds` go into it.
+    std::shared_ptr<const Snapshot> makePart(const Detail& detail, double seconds);
+
     std::uint64_t count() const { return count_; }
+    /// Options::displayAngle of the last whole snapshot.
+    double shownAngle() const { return shownAngle_; }
 
   private:
+    std::shared_ptr<const Snapshot> describe(const Detail& detail, bool isFinished);
+
     Problem& problem_;
     DisplayUpdate& display_;
     std::uint64_t count_ = 0;
+    double shownAngle_ = 0.0;
     std::shared_ptr<const std::vector<ClusterBox>> clusters_;  ///< never change; made when asked for
 };
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/photometry.h"
 #include "core/hierarchy/local_frame.h"
 #include "core/solve/assess_link.h"
+#include "core/solve/cluster_pairs.h"
 #include "core/solve/facing.h"
+#include "core/solve/link_order.h"
 #include "core/transport/coefficients.h"
 
 namespace fluxwalk::solve {
@@ -24,6 +27,8 @@ using transport::Query;
 
 /// Pairs whose coefficients are computed between two looks at the clock.
 constexpr std::size_t kGrain = 64;
+/// Pairs of a wave that are decided between two looks at who calls.
+constexpr std::size_t kStretch = 2048;
 
 class Refinement {
   public:
@@ -60,16 +65,37 @@ class Refinement {
         sortIn(decisions);
     }
 
-    // One wave: splits what is most in need of it and decides on what comes of that. False where a budget
-    // has no room for it.
-    bool runWave(const Budget& budget) {
+    enum class Wave : std::uint8_t {
+        done,
+        calledAway,
+        noRoom  ///< the budget has none for any part of it
+    };
+
+    // One wave: splits what is most in need of it and decides on what comes of that. What was not reached
+    // when called away is pending again.
+    Wave runWave(const Budget& budget, const std::function<bool(std::span<const Decision>)>& isCalledAway) {
         const std::vector<Decision> opened =
             takeNext(problem_.pending, hierarchy_, budget, problem_.links.links.size());
         if (opened.empty()) {
-            return false;
+            return Wave::noRoom;
         }
-        decideAll(openPairs(problem_.hierarchy, problem_.executor, opened));
-        return true;
+        const std::vector<Query> pairs = openPairs(problem_.hierarchy, problem_.executor, opened);
+        std::size_t next = 0;
+        for (std::size_t pair = 0; next < opened.size();) {
+            const std::span<const Decision> rest = std::span(opened).subspan(next);
+            if (isCalledAway && isCalledAway(rest)) {
+                problem_.pending.insert(problem_.pending.end(), rest.begin(), rest.end());
+                return Wave::calledAway;
+            }
+            const std::size_t first = pair;
+            for (; next < opened.size() && pair - first < kStretch; ++next) {
+                pair += countParts(hierarchy_, opened[next]);
+                note(opened[next]);
+            }
+            decideAll(std::span(pairs).subspan(first, pair - first));
+        }
+        ++problem_.statistics.counters.waves;
+        return Wave::done;
     }
 
     // From here on every link stands that can.
@@ -90,6 +116,7 @@ class Refinement {
             }
         }
         decideAll(unknown);
+        ++problem_.statistics.counters.waves;
     }
 
     // The largest error in lux of a link that stands without being fine enough, 0 for none.
@@ -97,7 +124,7 @@ class Refinement {
 
   private:
     // Coefficients of all pairs, then accept, drop or keep for the next wave.
-    void decideAll(const std::vector<Query>& pairs) {
+    void decideAll(std::span<const Query> pairs) {
         std::vector<Decision> decisions(pairs.size());
         std::vector<Counters> counts((pairs.size() + kGrain - 1) / kGrain);
         problem_.executor.forRange(pairs.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -111,7 +138,6 @@ class Refinement {
             total.kernelEvaluations += c.kernelEvaluations;
             total.certificates += c.certificates;
         }
-        ++total.waves;
         sortIn(decisions);
     }
 
@@ -124,7 +150,15 @@ class Refinement {
                 }
             } else if (d.verdict != Verdict::drop) {
                 problem_.pending.push_back(d);
+            } else {
+                note(d);
             }
+        }
+    }
+
+    void note(const Decision& d) {
+        if (problem_.keepsKnown && d.isComputed && !isCluster(d.link.a) && !isCluster(d.link.b)) {
+            problem_.known.note(d.link);
         }
     }
 
@@ -178,14 +212,14 @@ class Refinement {
                 d.verdict = splitCluster(link.a, link.b);
                 return;
             }
-            d.error = boundExchange(link.a, link.b);
+            d.error = boundOf(link.a, link.b);
             if (isMinorPair(link.a, link.b)) {
                 d.verdict = Verdict::accept;
                 return;
             }
             // Points prove nothing.
             const bool isStrict = problem_.options.oracle == OracleKind::strict;
-            if (isStrict || !areApart(link.a, link.b) || link.coupling <= 0.0f) {
+            if (isStrict || !areApart(hierarchy_, link.a, link.b) || link.coupling <= 0.0f) {
                 d.verdict = splitCluster(link.a, link.b);
                 return;
             }
@@ -220,11 +254,15 @@ class Refinement {
              facesAway(shapeA, shapeB) || facesAway(shapeB, shapeA))) {
             return d;
         }
+        if (recall(d)) {
+            return d;
+        }
         Coefficient c;
         service_.compute(std::span(&pair, 1), std::span(&c, 1));
         count(c, counters);
         // A strict oracle is not content that no sample saw another.
         if (c.isBlocked || (c.coupling <= 0.0f && problem_.options.oracle != OracleKind::strict)) {
+            d.isComputed = true;
             return d;
         }
         // Also where the pair will be split: it must be judged as its standing link would be.
@@ -234,6 +272,24 @@ class Refinement {
         setCoefficient(d.link, c);
         judge(d);
         return d;
+    }
+
+    // Whether the pair's coefficient is known from before; then it is decided on.
+    bool recall(Decision& d) const {
+        // A strict oracle keeps pairs that no sample saw: these look like dropped ones.
+        if (problem_.options.oracle == OracleKind::strict) {
+            return false;
+        }
+        const std::optional<Link> known = problem_.known.find(d.link.a, d.link.b);
+        if (!known) {
+            return false;
+        }
+        d.isComputed = true;
+        if (known->coupling > 0.0f || known->visibilityBits != 0) {
+            d.link = *known;
+            judge(d);
+        }
+        return true;
     }
 
     // A concave element sees itself: kept as a link where that matters little, or where its kernel is one
@@ -274,17 +330,8 @@ class Refinement {
         return isA ? Verdict::splitA : Verdict::splitB;
     }
 
-    // All that a pair could exchange, were nothing lost on the way, as an error in lux.
-    float boundExchange(NodeId a, NodeId b) const {
-        const auto radiosity = [this](NodeId id) {
-            const hierarchy::Light& light = hierarchy_.light(id);
-            return base::channelMean(light.radiosity) + light.range();
-        };
-        const float area = std::min(hierarchy_.shape(a).exposedArea(), hierarchy_.shape(b).exposedArea());
-        return limitError(area * std::max(radiosity(a), radiosity(b)) / sceneArea_);
-    }
-
-    bool isMinorPair(NodeId a, NodeId b) const { return boundExchange(a, b) <= threshold_; }
+    float boundOf(NodeId a, NodeId b) const { return boundExchange(hierarchy_, a, b); }
+    bool isMinorPair(NodeId a, NodeId b) const { return boundOf(a, b) <= threshold_; }
 
     // Light sources without area stay with single patches, and nothing is shared through a closed wall or by
     // the two sides of a lamp.
@@ -295,28 +342,6 @@ class Refinement {
         }
         return problem_.takesClusterLinks() && hierarchy_.shape(a).area > 0.0f &&
                hierarchy_.shape(b).area > 0.0f && hierarchy_.isInOneRoom(a) && hierarchy_.isInOneRoom(b);
-    }
-
-    // Whether points stand for a cluster in its exchange with another node: clusters must be apart by their
-    // spheres, an element, whose factor is exact, by its box.
-    bool areApart(NodeId a, NodeId b) const {
-        const Shape& shapeA = hierarchy_.shape(a);
-        const Shape& shapeB = hierarchy_.shape(b);
-        if (shapeA.cornerCount == 0 && shapeB.cornerCount == 0) {
-            return glm::distance(shapeA.center, shapeB.center) > shapeA.radius + shapeB.radius;
-        }
-        const Shape& cluster = shapeA.cornerCount == 0 ? shapeA : shapeB;
-        const Shape& element = shapeA.cornerCount == 0 ? shapeB : shapeA;
-        hierarchy::Extent box{element.center - element.radius, element.center + element.radius};
-        if (element.isPlanar) {
-            box = {element.corners[0], element.corners[0]};
-            for (std::uint32_t i = 1; i < element.cornerCount; ++i) {
-                box.lower = glm::min(box.lower, element.corners[i]);
-                box.upper = glm::max(box.upper, element.corners[i]);
-            }
-        }
-        const base::Vec3 nearest = glm::clamp(cluster.center, box.lower, box.upper);
-        return glm::distance(nearest, cluster.center) > cluster.radius;
     }
 
     Decision decideClusters(const Query& pair, Counters& counters) const {
@@ -331,9 +356,9 @@ class Refinement {
             return d;
         }
         const bool mayLink = mayLinkClusters(pair.a, pair.b);
-        if (!mayLink || (!isMinorPair(pair.a, pair.b) && !areApart(pair.a, pair.b))) {
+        if (!mayLink || (!isMinorPair(pair.a, pair.b) && !areApart(hierarchy_, pair.a, pair.b))) {
             d.verdict = splitCluster(pair.a, pair.b);
-            d.error = mayLink ? boundExchange(pair.a, pair.b) : INFINITY;
+            d.error = mayLink ? boundOf(pair.a, pair.b) : INFINITY;
             return d;
         }
         if (a.exposedArea() <= 0.0f || b.exposedArea() <= 0.0f) {
@@ -380,30 +405,11 @@ class Refinement {
     float largestError_ = 0.0f;
 };
 
-// Links with clusters stand first.
-void orderLinks(Problem& problem) {
-    const Hierarchy& h = problem.hierarchy;
-    std::vector<Link>& links = problem.links.links;
-    const auto withClusters = std::stable_partition(links.begin(), links.end(), [&h](const Link& link) {
-        return h.kind(link.a) == NodeKind::cluster || h.kind(link.b) == NodeKind::cluster;
-    });
-    problem.links.clusterLinks = static_cast<std::size_t>(withClusters - links.begin());
-    problem.links.index(h.nodeCount());
-}
-
-void countLinks(Problem& problem) {
-    Counters& counters = problem.statistics.counters;
-    counters.nodes = problem.hierarchy.nodeCount();
-    counters.leaves = problem.hierarchy.leafCount();
-    counters.links = problem.links.links.size();
-    counters.bytesNodes = counters.nodes * Hierarchy::bytesPerNode();
-    counters.bytesLinks = problem.links.bytes();
-}
-
 }  // namespace
 
 Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
-                    const std::function<bool()>& shouldStop) {
+                    const std::function<bool()>& shouldStop,
+                    const std::function<bool(std::span<const Decision>)>& isCalledAway) {
     const StageTimer timer(problem.statistics.times.refine);
     Refinement refinement(problem, threshold);
     problem.links.clusterLinks = 0;
@@ -417,14 +423,21 @@ Refined refineLinks(Problem& problem, double threshold, const Budget& budget,
     }
     Refined refined;
     refined.hasChanged = !problem.pending.empty();
+    bool isEnding = false;
     while (!problem.pending.empty()) {
-        if (shouldStop && shouldStop()) {
+        if (isEnding || (shouldStop && shouldStop())) {
             refinement.acceptAll();
         }
-        if (!problem.pending.empty() && !refinement.runWave(budget)) {
+        if (problem.pending.empty()) {
+            break;
+        }
+        // Pairs that cannot stand are opened to the end.
+        const auto wave = refinement.runWave(budget, isEnding ? nullptr : isCalledAway);
+        if (wave == Refinement::Wave::noRoom) {
             refined.limit = budget.nearest(problem.hierarchy.nodeCount(), problem.linkCount());
             refinement.acceptAll();
         }
+        isEnding = isEnding || wave == Refinement::Wave::calledAway;
     }
     problem.statistics.largestError = std::max(threshold, static_cast<double>(refinement.largestError()));
     orderLinks(problem);

@@ -7,6 +7,7 @@
 #include "core/solve/audit.h"
 #include "core/solve/coarsen.h"
 #include "core/solve/first_guess.h"
+#include "core/solve/preview.h"
 #include "core/solve/sweep.h"
 
 namespace fluxwalk::solve {
@@ -18,11 +19,21 @@ constexpr int kSweepsAfterStop = 2;
 constexpr double kPublishInterval = 0.1;  ///< seconds
 /// Of the time, snapshots take no more than about one part in this many.
 constexpr double kPublishShare = 8.0;
-/// The first picture waits for its third sweep or so: a millisecond more, and interreflection is there.
+/// The first level's picture waits for its third sweep or so: a millisecond more, and interreflection is
+/// there.
 constexpr double kFirstResidual = 0.04;
+/// What new options do is shown after so many seconds, as far as it has come by then.
+constexpr double kFirstEffect = 0.05;
+/// Of pictures from the midst of a refinement.
+constexpr int kPreviewSweeps = 2;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::chrono::steady_clock::duration toDuration(double seconds) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(seconds));
 }
 
 }  // namespace
@@ -32,7 +43,8 @@ Run::Run(Problem& problem, const Callbacks& callbacks, LoopState& loop, Publishe
       callbacks_(callbacks),
       loop_(loop),
       publisher_(publisher),
-      before_(problem.statistics.times.total) {}
+      before_(problem.statistics.times.total),
+      due_(publisher.count() > 0 ? start_ + toDuration(kFirstEffect) : start_) {}
 
 void Run::takeNewOptions() {
     const auto changed = callbacks_.newOptions ? callbacks_.newOptions() : std::nullopt;
@@ -40,6 +52,8 @@ void Run::takeNewOptions() {
         return;
     }
     const Options built = problem_.options;
+    due_ = std::min(due_, Clock::now() + toDuration(kFirstEffect));
+    isHurried_ = isHurried_ || built.displayAngle != changed->displayAngle;
     loop_.hasChanged = true;
     loop_.asked = mergeAsked(loop_.asked, compareOptions(built, *changed, problem_.statistics.history));
     problem_.options = *changed;
@@ -106,19 +120,68 @@ void Run::audit(std::size_t rays) {
     problem_.statistics.audit = auditEnergy(problem_, rays);
 }
 
+bool Run::isTimeToPublish() const {
+    return isHurried_ || Clock::now() >= due_;
+}
+
 void Run::publish(bool isFinished) {
-    problem_.statistics.times.total = seconds();
-    const double wait = std::max(kPublishInterval, kPublishShare * publishTime_);
-    const bool isTooEarly = publisher_.count() > 0 ? secondsSince(published_) < wait
-                                                   : problem_.statistics.residual > kFirstResidual;
-    if (!callbacks_.publish || (!isFinished && isTooEarly && !isHurried_)) {
+    const bool isRough = problem_.statistics.history.empty() && problem_.statistics.residual > kFirstResidual;
+    const bool isTooEarly = !isHurried_ && (isRough || !isTimeToPublish());
+    if (!callbacks_.publish || (!isFinished && isTooEarly)) {
         return;
     }
-    isHurried_ = false;
     const Clock::time_point start = Clock::now();
+    deliver(isFinished);
+    rest(secondsSince(start));
+}
+
+void Run::rest(double publishTime) {
+    due_ = Clock::now() + toDuration(std::max(kPublishInterval, kPublishShare * publishTime));
+}
+
+void Run::deliver(bool isFinished) {
+    isHurried_ = false;
+    problem_.statistics.times.total = seconds();
+    while (publisher_.count() > 0 && publisher_.shownAngle() != problem_.options.displayAngle) {
+        auto part = publisher_.makePart(callbacks_.detail ? callbacks_.detail() : Detail{}, kFirstEffect);
+        if (part == nullptr) {
+            break;
+        }
+        callbacks_.publish(std::move(part));
+        // Another angle may have been asked for by now.
+        if (isResumable_) {
+            takeNewOptions();
+        }
+    }
     callbacks_.publish(publisher_.make(callbacks_.detail ? callbacks_.detail() : Detail{}, isFinished));
-    published_ = Clock::now();
-    publishTime_ = secondsSince(start);
+}
+
+bool Run::isCalledAway(std::span<const Decision> underway) {
+    if (isResumable_) {
+        takeNewOptions();
+    }
+    if (isTurned_ || wantsRelight()) {
+        return true;
+    }
+    // Limits of memory count what refining takes, and not a second set of links.
+    if (!callbacks_.publish || problem_.options.memoryLimit > 0 || !isTimeToPublish()) {
+        return false;
+    }
+    // Until there has been a whole picture, a guess stands for what has no links yet.
+    const bool isWhole = canPreview(problem_, underway);
+    const bool isFirst = publisher_.count() == 0;
+    if (isWhole || (problem_.statistics.history.empty() && loop_.ambient > 0.0)) {
+        const Clock::time_point start = Clock::now();
+        preview(problem_, underway, {kPreviewSweeps, kFirstResidual, isWhole ? 0.0 : loop_.ambient}, [this] {
+            if (callbacks_.settled) {
+                callbacks_.settled();
+            }
+            deliver(false);
+        });
+        // The first one makes all meshes, which takes much longer than their light.
+        rest(isFirst ? 0.0 : secondsSince(start));
+    }
+    return false;
 }
 
 void Run::report(const char* stage) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 
 #include "core/solve/checkpoint.h"
 #include "core/solve/publisher.h"
@@ -9,12 +10,17 @@ namespace fluxwalk::solve {
 
 /// One call of Solver::solve: its clock, its stops and whom it tells.
 class Run {
+    using Clock = std::chrono::steady_clock;
+
   public:
     Run(Problem& problem, const Callbacks& callbacks, LoopState& loop, Publisher& publisher);
 
     /// Asked between waves and sweeps: takes new options over, tells that the solve could go on from here,
     /// and returns whether what is at work shall end.
     bool isStopped();
+    /// The same within a wave, for what need not wait for its end: new options are taken over and a picture
+    /// of what there is by then is published when it is time.
+    bool isCalledAway(std::span<const Decision> underway);
     /// Whether a stop or the time limit has been seen.
     bool isCut() const { return wasStopped_ || isOutOfTime_; }
     /// Whether the level at hand was left for what new options ask for; forgets it.
@@ -23,6 +29,8 @@ class Run {
     bool wantsRelight() const;
     /// The next snapshot need not wait for its time.
     void hurry() { isHurried_ = true; }
+    /// Its time has come.
+    void makeDue() { due_ = Clock::now(); }
 
     /// Sweeps, `most` times in all, until one changes no more than `residual` of the power.
     void sweep(int most, double residual);
@@ -39,9 +47,11 @@ class Run {
 
   private:
     void takeNewOptions();
+    bool isTimeToPublish() const;
+    void deliver(bool isFinished);
+    /// Puts the next snapshot off after one that took so many seconds.
+    void rest(double publishTime);
     void tell(Moment moment);
-
-    using Clock = std::chrono::steady_clock;
 
     Problem& problem_;
     const Callbacks& callbacks_;
@@ -49,8 +59,7 @@ class Run {
     Publisher& publisher_;
     double before_;
     Clock::time_point start_ = Clock::now();
-    Clock::time_point published_{};
-    double publishTime_ = 0.0;  ///< seconds that the last snapshot took
+    Clock::time_point due_;  ///< of the next snapshot
     bool wasStopped_ = false;
     bool isOutOfTime_ = false;
     bool isTurned_ = false;

@@ -45,6 +45,11 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// Whether sweeps over the same links end in the same light.
+bool sweepsAlike(const Options& a, const Options& b) {
+    return a.pullRule == b.pullRule && a.rowScaling == b.rowScaling && a.lighting == b.lighting;
+}
+
 void checkSize(const Problem& problem) {
     const std::size_t patches = problem.hierarchy.patches().size();
     if (!problem.takesClusterLinks() && patches > kMaxPairedPatches) {
@@ -75,7 +80,9 @@ struct Solver::State {
     std::uint64_t memoryLimit() const {
         return problem.options.memoryLimit > 0 ? problem.options.memoryLimit : machineLimit;
     }
-    Footprint footprint() const { return {base, builtNodes, display.bytes(), display.shownNodes()}; }
+    Footprint footprint() const {
+        return {base + problem.known.bytes(), builtNodes, display.bytes(), display.shownNodes()};
+    }
     std::uint64_t bytes() const {
         return footprint().bytes(problem.hierarchy.nodeCount(), problem.linkCount());
     }
@@ -87,6 +94,8 @@ struct Solver::State {
     std::uint64_t machineLimit;  ///< bytes, where the options name no limit
     std::size_t builtNodes;
     LoopState loop;
+    /// Of the last sweeps to the end, as long as what they left stands.
+    std::optional<Options> convergedWith;
     Publisher publisher;
 };
 
@@ -191,6 +200,9 @@ void Solver::tighten() {
                 ? std::max(first, problem.options.threshold)
                 : std::max({statistics.threshold, asked.threshold, problem.options.threshold});
         dropLinks(problem);
+        if (asked.turn == Turn::anew || isOver) {
+            problem.known.clear();
+        }
         if (isOver || hasTooSmallElements(problem)) {
             pruneElements(problem);
         }
@@ -245,6 +257,7 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     Problem& problem = state.problem;
     Statistics& statistics = problem.statistics;
     Run run(problem, callbacks, state.loop, state.publisher);
+    problem.keepsKnown = callbacks.newOptions != nullptr && problem.options.memoryLimit == 0;
     if (!state.loop.isStarted) {
         start();
     }
@@ -269,7 +282,20 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     const bool isEmpty = problem.hierarchy.patches().empty() || state.loop.ambient <= 0.0;
     Limit limit = Limit::none;
     const bool isBetweenLevels = state.loop.stage == Stage::tighten && !run.wantsRelight();
-    for (bool isDone = isEmpty || (isBetweenLevels && !statistics.history.empty() && isSettled()); !isDone;) {
+    const bool isAtRest = isBetweenLevels && !statistics.history.empty() && isSettled();
+    bool isDone = isEmpty || isAtRest;
+    const std::optional<Options> converged = std::exchange(state.convergedWith, std::nullopt);
+    if (isAtRest && converged && sweepsAlike(*converged, problem.options)) {
+        // Even the last sweeps have been made. Showing that takes a while: more may be asked for meanwhile.
+        run.publish(true);
+        isDone = isSettled() && !run.wantsRelight();
+        if (isDone && sweepsAlike(*converged, problem.options)) {
+            state.convergedWith = problem.options;
+            return run.outcome(limit);
+        }
+        run.takeTurn();
+    }
+    while (!isDone) {
         if (run.wantsRelight()) {
             relight();
         }
@@ -292,12 +318,17 @@ Outcome Solver::solve(const Callbacks& callbacks) {
         }
         if (state.loop.stage == Stage::refine) {
             run.report("refining");
-            const Refined refined = refineLinks(problem, statistics.threshold, state.budget(), isStopped);
+            const Refined refined = refineLinks(
+                problem, statistics.threshold, state.budget(), isStopped,
+                [&run](std::span<const Decision> underway) { return run.isCalledAway(underway); });
             if (state.loop.isCoarsening) {
                 pruneElements(problem);
             }
             state.loop.hasChanged = refined.hasChanged;
             limit = refined.limit;
+            if (statistics.history.empty()) {
+                run.makeDue();
+            }
             state.loop.stage = Stage::sweep;
             state.loop.sweeps = 0;
         }
@@ -327,6 +358,9 @@ Outcome Solver::solve(const Callbacks& callbacks) {
     run.report("converging");
     run.beginLastSweeps();
     run.sweep(kFinalSweeps, kFinalResidual);
+    if (!run.isCut()) {
+        state.convergedWith = problem.options;
+    }
     run.audit(kFinalAuditRays);
     run.publish(true);
     statistics.times.total = run.seconds();

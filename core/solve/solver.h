@@ -49,15 +49,18 @@ enum class Moment : std::uint8_t {
 
 /// Called on the solving thread, between waves and sweeps. All may be empty.
 struct Callbacks {
-    /// Gets a snapshot after sweeps, at most ten a second, and one at the end.
+    /// Gets a snapshot at most ten times a second, and one at the end: after sweeps, of a refinement under
+    /// way, and in parts while another displayAngle takes its time. The first one is the first guess.
     std::function<void(std::shared_ptr<const Snapshot>)> publish;
     /// What snapshots shall tell beside the light.
     std::function<Detail()> detail;
-    /// Called after sweeps, when links and light agree: what looks at the solver then sees a whole state.
+    /// Called after sweeps, when links and light agree: what looks at the solver then sees a whole state, or
+    /// in the midst of a refinement what would be one, were it to end there.
     std::function<void()> settled;
     /// Asked at wave boundaries; true ends the solve with what it has.
     std::function<bool()> shouldStop;
-    /// Asked at wave boundaries; new options take effect there (error, oracle, threshold, minArea, lighting).
+    /// Asked at wave boundaries and some milliseconds apart within waves; new options take effect there
+    /// (error, oracle, threshold, minArea, lighting).
     std::function<std::optional<Options>()> newOptions;
     /// Called at all of these; Solver::checkpoint() then gives what the solve can go on from.
     std::function<void(Moment)> resumable;

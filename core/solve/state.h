@@ -7,6 +7,7 @@
 #include "core/hierarchy/hierarchy.h"
 #include "core/hierarchy/links.h"
 #include "core/rays/ray_scene.h"
+#include "core/solve/known_pairs.h"
 #include "core/solve/options.h"
 #include "core/solve/pending_pairs.h"
 #include "core/solve/statistics.h"
@@ -37,6 +38,10 @@ struct Problem {
     hierarchy::LinkStore links;
     /// Pairs that refinement still has to split; empty where it is not at work.
     std::vector<Decision> pending;
+    /// Elements' pairs that coarser links are made of without computing them again; kept where somebody may
+    /// turn options while it solves.
+    KnownPairs known;
+    bool keepsKnown = false;
     Statistics statistics;
     /// Factor of each node on all its transfers, from row scaling; empty while it is off.
     std::vector<float> rowScale;

@@ -277,11 +277,17 @@ NormalCone boundNormals(const BezierPiece& piece) {
         return {Vec3d(0, 0, 1), base::kPi};
     }
     NormalCone cone{sum / length, 0.0};
+    const Vec3d* farthest = nullptr;
+    double distance = -1.0;
     for (std::size_t i = 0; i < net.count; ++i) {
-        if (net.vectors[i] != Vec3d(0.0)) {
-            cone.halfAngle = std::max(cone.halfAngle, NormalCone::angleBetween(net.vectors[i], cone.axis));
+        const Vec3d away = net.vectors[i] - cone.axis;
+        const double squared = glm::dot(away, away);
+        if (squared > distance && net.vectors[i] != Vec3d(0.0)) {
+            distance = squared;
+            farthest = &net.vectors[i];
         }
     }
+    cone.halfAngle = NormalCone::angleBetween(*farthest, cone.axis);
     if (cone.halfAngle >= 0.5 * base::kPi) {
         cone.halfAngle = base::kPi;
     }

@@ -99,11 +99,25 @@ bool RevolvedSegment::canSeeItself(std::uint32_t /*patch*/, bool back) const {
     return inside_ != back;
 }
 
+Arc RevolvedSegment::arcBetween(std::uint32_t patch, double u0, double u1) const {
+    const double from = partOf(u0);
+    const double to = partOf(u1);
+    return {patch, std::min(from, to), std::max(from, to)};
+}
+
+// Linear in (cos, sin).
+std::array<Vec3d, 4> RevolvedSegment::normalHull(const Arc& arc) const {
+    std::array<Vec3d, 4> normals{};
+    const std::array<Vec2d, 4> turns = hullOf(arc);
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+        normals[i] = normalAlong(turns[i]);
+    }
+    return normals;
+}
+
 RegionBounds RevolvedSegment::bounds(std::uint32_t patch, const Region& region) const {
     const auto [lower, upper] = parameterBox(region);
-    const double from = partOf(lower.x);
-    const double to = partOf(upper.x);
-    const Arc arc{patch, std::min(from, to), std::max(from, to)};
+    const Arc arc = arcBetween(patch, lower.x, upper.x);
     RegionBounds result;
     for (int axis = 0; axis < 3; ++axis) {
         // At one turn the world's coordinates are linear in v, so their extremes lie at its ends.
@@ -115,17 +129,16 @@ RegionBounds RevolvedSegment::bounds(std::uint32_t patch, const Region& region) 
             result.box.upper[axis] = std::max(result.box.upper[axis], base + radiusAt(v) * around.upper);
         }
     }
-    // Normals do not depend on v and are linear in (cos, sin).
-    std::array<Vec3d, 4> normals{};
-    const std::array<Vec2d, 4> turns = hullOf(arc);
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-        normals[i] = normalAlong(turns[i]);
-    }
-    result.normals = coneAround(normals);
+    result.normals = coneAround(normalHull(arc));
     if (inside_) {
         result.normals.axis = -result.normals.axis;
     }
     return result;
+}
+
+bool RevolvedSegment::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
+    const auto [lower, upper] = parameterBox(region);
+    return coneAround(normalHull(arcBetween(patch, lower.x, upper.x)), halfAngle).halfAngle <= halfAngle;
 }
 
 // Integral over u of the area measure at radius 1.

@@ -23,6 +23,7 @@ class RevolvedSegment : public Surface {
     /// The exact box, and the cone of its normals up to a few percent. Regions that do not run along u and v
     /// get those of the least one around them that does.
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
+    bool normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const override;
     /// To rounding for regions along u and v, else to about 1e-12.
     double area(std::uint32_t patch, const Region& region) const override;
     Box bounds() const override;
@@ -53,6 +54,10 @@ class RevolvedSegment : public Surface {
     double radiusAt(double v) const { return (1.0 - v) * first_.radius + v * last_.radius; }
     double heightAt(double v) const { return (1.0 - v) * first_.height + v * last_.height; }
     Vec3d positionAt(std::uint32_t patch, const Vec2d& uv) const;
+    Arc arcBetween(std::uint32_t patch, double u0, double u1) const;
+    /// Directions whose combinations are the normals over a part of the turn, of either side: they do not
+    /// depend on v.
+    std::array<Vec3d, 4> normalHull(const Arc& arc) const;
     Vec3d normalAlong(const Vec2d& turn) const;
     double measureAround(std::uint32_t patch, double from, double to) const;
 

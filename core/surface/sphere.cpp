@@ -1,5 +1,6 @@
 #include "core/surface/sphere.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/photometry.h"
@@ -43,6 +44,9 @@ Sphere::Sphere(const base::Mat4d& worldFromUnit, bool inside)
         std::abs(glm::length(linear_[2]) - r) < 1e-9 * r && skew < 1e-9 * r * r) {
         radius_ = r;
     }
+    for (std::uint32_t patch = 0; patch < octants_.size(); ++patch) {
+        octants_[patch] = makeOctant(patch);
+    }
 }
 
 Sphere::Sphere(const Vec3d& center, double radius, bool inside)
@@ -54,7 +58,7 @@ base::Mat4d Sphere::worldFromUnit() const {
     return m;
 }
 
-Sphere::Octant Sphere::octant(std::uint32_t patch) const {
+Sphere::Octant Sphere::makeOctant(std::uint32_t patch) const {
     constexpr std::array<std::array<double, 2>, 4> kEquator{{{1, 0}, {0, -1}, {-1, 0}, {0, 1}}};
     const std::uint32_t quarter = patch & 3u;
     const auto& a = kEquator[quarter];
@@ -67,7 +71,7 @@ Sphere::Octant Sphere::octant(std::uint32_t patch) const {
 }
 
 Vec3d Sphere::directionAt(std::uint32_t patch, const Vec2d& uv) const {
-    const Octant o = octant(patch);
+    const Octant& o = octant(patch);
     double w = 1.0 - uv.x - uv.y;
     if (std::abs(w) < 1e-15) {
         w = 0.0;  // on the equator, bitwise the same from both sides
@@ -90,7 +94,7 @@ SurfacePoint Sphere::evaluate(std::uint32_t patch, const Vec2d& uv) const {
 }
 
 Vec2d Sphere::splitPoint(std::uint32_t patch, const Vec2d& a, const Vec2d& b) const {
-    const Octant o = octant(patch);
+    const Octant& o = octant(patch);
     const Vec3d middle = directionAt(patch, a) + directionAt(patch, b);
     const double w = std::abs(glm::dot(middle, o.pole));
     const double u = std::abs(glm::dot(middle, o.first));
@@ -100,7 +104,7 @@ Vec2d Sphere::splitPoint(std::uint32_t patch, const Vec2d& a, const Vec2d& b) co
 }
 
 Vec2d Sphere::locate(std::uint32_t patch, const Vec3d& position) const {
-    const Octant o = octant(patch);
+    const Octant& o = octant(patch);
     const Vec3d unit = inverse_ * (position - center_);
     const double w = std::max(0.0, glm::dot(unit, o.pole));
     const double u = std::max(0.0, glm::dot(unit, o.first));
@@ -110,7 +114,7 @@ Vec2d Sphere::locate(std::uint32_t patch, const Vec3d& position) const {
 }
 
 Vec2d Sphere::texcoord(std::uint32_t patch, const Vec2d& uv, unsigned /*set*/) const {
-    const Octant o = octant(patch);
+    const Octant& o = octant(patch);
     const Vec3d unit = directionAt(patch, uv);
     const bool eastward = (patch < 4) != clockwise_;
     // Longitude within the quarter, so that no patch sees the seam; at a pole the quarter's middle.
@@ -123,6 +127,22 @@ Vec2d Sphere::texcoord(std::uint32_t patch, const Vec2d& uv, unsigned /*set*/) c
 
 bool Sphere::canSeeItself(std::uint32_t /*patch*/, bool back) const {
     return inside_ != back;
+}
+
+bool Sphere::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
+    std::array<Vec3d, 3> corner{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        corner[i] = directionAt(patch, region.corners[i]);
+    }
+    if (radius_ > 0.0) {
+        const Vec3d axis = glm::normalize(corner[0] + corner[1] + corner[2]);
+        return std::all_of(corner.begin(), corner.end(),
+                           [&](const Vec3d& c) { return NormalCone::angleBetween(axis, c) <= halfAngle; });
+    }
+    for (Vec3d& c : corner) {
+        c = normalAt(c);
+    }
+    return coneAround(corner, halfAngle).halfAngle <= halfAngle;
 }
 
 RegionBounds Sphere::bounds(std::uint32_t patch, const Region& region) const {

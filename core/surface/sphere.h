@@ -24,6 +24,7 @@ class Sphere final : public Surface {
     bool isPlanar(std::uint32_t /*patch*/) const override { return false; }
     bool canSeeItself(std::uint32_t patch, bool back) const override;
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
+    bool normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const override;
     double area(std::uint32_t patch, const Region& region) const override;
     std::optional<double> exactKernel(bool back) const override;
     bool isConvexAround(const Box& box) const override;
@@ -43,7 +44,8 @@ class Sphere final : public Surface {
         Vec3d first;
         Vec3d second;
     };
-    Octant octant(std::uint32_t patch) const;
+    Octant makeOctant(std::uint32_t patch) const;
+    const Octant& octant(std::uint32_t patch) const { return octants_[patch]; }
     Vec3d directionAt(std::uint32_t patch, const Vec2d& uv) const;
     Vec3d toWorld(const Vec3d& unit) const { return linear_ * unit + center_; }
     Vec3d normalAt(const Vec3d& unit) const;
@@ -58,6 +60,7 @@ class Sphere final : public Surface {
     bool inside_;
     /// Whether the octants' natural order runs clockwise seen from the front: inside, or under a mirror.
     bool clockwise_;
+    std::array<Octant, 8> octants_;
 };
 
 }  // namespace fluxwalk::surface

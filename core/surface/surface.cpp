@@ -12,6 +12,10 @@ Vec2d Surface::splitPoint(std::uint32_t /*patch*/, const Vec2d& a, const Vec2d& 
     return 0.5 * (a + b);
 }
 
+bool Surface::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
+    return bounds(patch, region).normals.halfAngle <= halfAngle;
+}
+
 double Surface::area(std::uint32_t patch, const Region& region) const {
     return integrateOver(region, [&](const Vec2d& uv) { return evaluate(patch, uv).jacobian; });
 }

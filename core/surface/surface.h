@@ -103,6 +103,10 @@ class Surface {
 
     virtual RegionBounds bounds(std::uint32_t patch, const Region& region) const = 0;
 
+    /// Whether the cone in a region's bounds is no wider than `halfAngle` (radians). Default: makes the
+    /// bounds; surfaces override it where less tells that.
+    virtual bool normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const;
+
     /// True area of a region in m2. Default: Gauss quadrature of the area measure.
     virtual double area(std::uint32_t patch, const Region& region) const;
 

@@ -78,6 +78,19 @@ bool Torus::canSeeItself(std::uint32_t patch, bool back) const {
     return inside_ != back || isInnerHalf;
 }
 
+// Normals are linear in (cos, sin) of either angle: the products of both hulls hold them.
+std::array<Vec3d, 16> Torus::normalHull(const Arc& ring, const Arc& tube) const {
+    const std::array<Vec2d, 4> around = hullOf(ring);
+    std::array<Vec3d, 16> normals{};
+    std::size_t count = 0;
+    for (const Vec2d& t : hullOf(tube)) {
+        for (const Vec2d& r : around) {
+            normals[count++] = map_.normals * Vec3d(t.x * r.x, t.y, -t.x * r.y);
+        }
+    }
+    return normals;
+}
+
 RegionBounds Torus::bounds(std::uint32_t patch, const Region& region) const {
     const auto [lower, upper] = parameterBox(region);
     const Arc ring = ringArc(patch, lower.x, upper.x);
@@ -93,19 +106,17 @@ RegionBounds Torus::bounds(std::uint32_t patch, const Region& region) const {
         result.box.upper[axis] =
             map_.center[axis] + g.upper + tube_ * rangeOver(tube, {g.upper, row.y}).upper;
     }
-    // Normals are linear in (cos, sin) of either angle: the products of both hulls hold them.
-    std::array<Vec3d, 16> normals{};
-    std::size_t count = 0;
-    for (const Vec2d& t : hullOf(tube)) {
-        for (const Vec2d& r : hullOf(ring)) {
-            normals[count++] = map_.normals * Vec3d(t.x * r.x, t.y, -t.x * r.y);
-        }
-    }
-    result.normals = coneAround(normals);
+    result.normals = coneAround(normalHull(ring, tube));
     if (inside_) {
         result.normals.axis = -result.normals.axis;
     }
     return result;
+}
+
+bool Torus::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
+    const auto [lower, upper] = parameterBox(region);
+    const Arc ring = ringArc(patch, lower.x, upper.x);
+    return coneAround(normalHull(ring, {patch >> 2, lower.y, upper.y}), halfAngle).halfAngle <= halfAngle;
 }
 
 double Torus::area(std::uint32_t patch, const Region& region) const {

@@ -28,6 +28,7 @@ class Torus final : public Surface {
     /// The exact box, and the cone of its normals up to a few percent. Regions that do not run along u and v
     /// get those of the least one around them that does.
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
+    bool normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const override;
     /// To rounding under similarities for regions along u and v, else to about 1e-12.
     double area(std::uint32_t patch, const Region& region) const override;
     std::optional<SurfaceHit> intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
@@ -41,6 +42,8 @@ class Torus final : public Surface {
 
   private:
     double partOf(double u) const { return clockwise_ ? 1.0 - u : u; }
+    /// Directions whose combinations are the normals, of either side.
+    std::array<Vec3d, 16> normalHull(const Arc& ring, const Arc& tube) const;
     Arc ringArc(std::uint32_t patch, double u0, double u1) const;
     Vec2d locateUnit(std::uint32_t patch, const Vec3d& unit) const;
 

@@ -79,7 +79,7 @@ std::array<Vec2d, 4> hullOf(const Arc& arc) {
             beyond * turnAt(arc.quarter, arc.from + 0.75 * length), turnAt(arc.quarter, arc.to)};
 }
 
-NormalCone coneAround(std::span<const Vec3d> directions) {
+NormalCone coneAround(std::span<const Vec3d> directions, double enough) {
     std::array<Vec3d, 16> unit{};
     FLUXWALK_CHECK_LE(directions.size(), unit.size());
     Vec3d middle(0.0);
@@ -112,6 +112,9 @@ NormalCone coneAround(std::span<const Vec3d> directions) {
         const double halfAngle = NormalCone::angleBetween(axis, *farthest);
         if (halfAngle < best.halfAngle) {
             best = {axis, halfAngle};
+            if (halfAngle <= enough) {
+                break;
+            }
         }
         center += (*farthest - center) / static_cast<double>(step + 1);
     }

@@ -99,6 +99,18 @@ void panelFrame(benchmark::State& state) {
 }
 BENCHMARK(panelFrame)->Unit(benchmark::kMillisecond);
 
+/// From the making of the session, which builds the solver, to the first light.
+void firstPicture(benchmark::State& state) {
+    Latency latency(state);
+    for (auto _ : state) {
+        const Clock::time_point start = Clock::now();
+        const auto session = startOn("gallery");
+        waitFor(*session, [](const Snapshot&) { return true; });
+        latency.take(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+}
+BENCHMARK(firstPicture)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(3);
+
 void relightAtRest(benchmark::State& state) {
     SolverSession& session = restingGallery();
     Latency latency(state);
@@ -142,21 +154,33 @@ void displayAngleAtRest(benchmark::State& state) {
 }
 BENCHMARK(displayAngleAtRest)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(6);
 
-void thresholdAtRest(benchmark::State& state) {
+/// The threshold at rest, and as many times that.
+void turnThreshold(benchmark::State& state, double from, double to) {
     SolverSession& session = restingGallery();
     Latency latency(state);
-    const double threshold = session.latest()->statistics.threshold;
-    int step = 0;
+    static const double threshold = session.latest()->statistics.threshold;
+    Options options = session.options();
     for (auto _ : state) {
-        Options options = session.options();
-        options.threshold = ++step % 2 == 0 ? threshold : 8.0 * threshold;
+        options.threshold = from * threshold;
+        session.setOptions(options);
+        session.wait();
+        options.threshold = to * threshold;
         const std::uint64_t before = session.latest()->sequence;
         session.setOptions(options);
         latency.take(waitFor(session, [&](const Snapshot& s) { return s.sequence > before; }));
         session.wait();
     }
 }
-BENCHMARK(thresholdAtRest)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(2);
+
+void thresholdLowered(benchmark::State& state) {
+    turnThreshold(state, 8.0, 1.0);
+}
+BENCHMARK(thresholdLowered)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(1);
+
+void thresholdRaised(benchmark::State& state) {
+    turnThreshold(state, 1.0, 8.0);
+}
+BENCHMARK(thresholdRaised)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace fluxwalk::session
