@@ -143,6 +143,23 @@ PairFactor betweenClusters(const hierarchy::Hierarchy& h, NodeId a, NodeId b) {
     return result;
 }
 
+// Gradient and spread at the element, end b, of what its points receive; `unknown` is added to the spread.
+void describeElementEnd(const ElementPoints& e, const Lanes& received, double unknown, PairFactor& result) {
+    std::array<double, kLanes> values{};
+    double mean = 0.0;
+    for (int i = 0; i < kLanes; ++i) {
+        values[static_cast<std::size_t>(i)] = received[i];
+        mean += e.weight[i] * received[i];
+    }
+    if (!(mean > 0.0)) {
+        result.spreadB = 2.0;
+        return;
+    }
+    const LinearFit fit = fitLinear(e, values, mean);
+    result.gradientB = fit.gradient;
+    result.spreadB = fit.deviation / mean + unknown;
+}
+
 /// Of clusters of so few patches each counts by itself: about as dear as points of them all, and as exact as
 /// pairs of elements.
 constexpr std::size_t kFewPatches = 8;
@@ -219,15 +236,7 @@ PairFactor withFewPatches(const hierarchy::Hierarchy& h, NodeId cluster, NodeId 
     }
     result.coupling = power * static_cast<double>(h.shape(element).sampledArea() / h.shape(element).area);
     result.spreadA = spreadOf({patches.data(), below.size()}, power, shares);
-    std::array<double, kLanes> seen{};
-    double mean = 0.0;
-    for (int i = 0; i < kLanes; ++i) {
-        seen[static_cast<std::size_t>(i)] = atElement[i];
-        mean += e.weight[i] * atElement[i];
-    }
-    const LinearFit fit = fitLinear(e, seen, mean);
-    result.gradientB = mean > 0.0 ? fit.gradient : base::Vec2d(0.0);
-    result.spreadB = mean > 0.0 ? fit.deviation / mean : 2.0;
+    describeElementEnd(e, atElement, 0.0, result);
     return result;
 }
 
@@ -254,19 +263,7 @@ PairFactor withElement(const hierarchy::Hierarchy& h, NodeId cluster, NodeId ele
     result.spreadA = received.spread;
     const Lanes atElement =
         hasAvx2() ? receiveAvx2(e.position, e.normal, points) : receiveBaseline(e.position, e.normal, points);
-    std::array<double, kLanes> seen{};
-    double mean = 0.0;
-    for (int i = 0; i < kLanes; ++i) {
-        seen[static_cast<std::size_t>(i)] = atElement[i];
-        mean += e.weight[i] * atElement[i];
-    }
-    const LinearFit fit = fitLinear(e, seen, mean);
-    if (mean > 0.0) {
-        result.gradientB = fit.gradient;
-        result.spreadB = fit.deviation / mean + kUnknown * received.spread;
-    } else {
-        result.spreadB = 2.0;
-    }
+    describeElementEnd(e, atElement, kUnknown * received.spread, result);
     return result;
 }
 
