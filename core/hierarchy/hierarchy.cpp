@@ -193,9 +193,8 @@ void Hierarchy::shapeElement(NodeId id, const surface::Region& region) {
         const double width = widthOf(shape);
         const double widthOfParent =
             isStrip ? std::max(width, widthOf(shape_[index(parent(id))])) : 2.0 * width;
-        const Exposure exposure =
-            findExposure(*rays_, reached_, surface, at.patch, at.back, region,
-                         {0.25 * width, 0.25 * widthOfParent}, mayEmit, isEmitter);
+        const Exposure exposure = findExposure(*rays_, reached_, surface, at.patch, at.back, region,
+                                               {0.25 * width, 0.25 * widthOfParent}, mayEmit, isEmitter);
         shape.exposedCells = exposure.cells;
         shape.exposedPlaces = exposure.places;
         shape.placesOfParent = exposure.placesOfParent;

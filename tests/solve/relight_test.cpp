@@ -180,8 +180,7 @@ TEST(Relight, endsAsAFreshSolveWithThoseLights) {
     ASSERT_EQ(fresh.solve({}), Outcome::reachedError);
     EXPECT_LT(solve::relativeRmsOffLamps(gathered(relit), gathered(fresh)), kError);
     // And as a scene that was made so.
-    Solver made(scene::relightScene(box, turned(*box)),
-                withError(kError), 2);
+    Solver made(scene::relightScene(box, turned(*box)), withError(kError), 2);
     ASSERT_EQ(made.solve({}), Outcome::reachedError);
     EXPECT_LT(solve::relativeRmsOffLamps(gathered(relit), gathered(made)), kError);
     const solve::Audit& audit = relit.statistics().audit;

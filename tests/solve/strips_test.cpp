@@ -19,7 +19,7 @@ using base::NodeId;
 using base::Vec3d;
 using test::Problem;
 
-constexpr double kLength = 80.0;  // what is missing beyond the ends counts 1e-5
+constexpr double kLength = 80.0;    // what is missing beyond the ends counts 1e-5
 constexpr unsigned kSegments = 30;  // as long as keeps elements from being cut into strips
 constexpr std::uint32_t kMiddle = kSegments / 2;
 
