@@ -100,14 +100,6 @@ TEST_F(Window, IReadsThePointUnderTheCursor) {
 TEST_F(Window, LampsAreSwitchedAndDimmedInThePanel) {
     const auto isLit = [](const Picture& p) { return p.at(700, 300).r > 60; };
     const auto isDark = [](const Picture& p) { return p.at(700, 300).r < 8; };
-    const auto click = [](int x, int y) {
-        point(x, y);
-        std::this_thread::sleep_for(150ms);
-        act("mousedown 1");
-        std::this_thread::sleep_for(200ms);
-        act("mouseup 1");
-        std::this_thread::sleep_for(400ms);
-    };
     // The lamp's row of the panel.
     constexpr int row = 425;
     ASSERT_LT(partDark(look(), 30, 48, row - 8, row + 8), 0.9);

@@ -178,6 +178,14 @@ class WindowTest : public ::testing::Test {
         std::this_thread::sleep_for(300ms);
     }
     static void point(int x, int y) { act("mousemove " + std::to_string(x) + " " + std::to_string(y)); }
+    static void click(int x, int y) {
+        point(x, y);
+        std::this_thread::sleep_for(150ms);
+        act("mousedown 1");
+        std::this_thread::sleep_for(200ms);
+        act("mouseup 1");
+        std::this_thread::sleep_for(400ms);
+    }
     static void act(const std::string& what) { std::system(("xdotool " + what).c_str()); }
 
     std::unique_ptr<Screen> screen_;

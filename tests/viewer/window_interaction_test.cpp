@@ -44,14 +44,6 @@ class WindowWork : public testing::WindowTest {
         std::filesystem::remove_all(folder_);
     }
 
-    static void click(int x, int y) {
-        point(x, y);
-        std::this_thread::sleep_for(150ms);
-        act("mousedown 1");
-        std::this_thread::sleep_for(200ms);
-        act("mouseup 1");
-        std::this_thread::sleep_for(300ms);
-    }
     /// The brightness of the wall once it no longer changes.
     int settledBrightness() const {
         int before = -1;
