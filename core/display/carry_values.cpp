@@ -110,7 +110,7 @@ CarryPlan planCarrying(std::span<const Cell> cells, const MeshVertices& fine) {
                     middleOf(corners[k], corners[(k + 1) % cells[i].cornerCount]));
             }
         }
-        if (cells[i].cornerCount == 4) {
+        if (fine.cells[i].isFan) {
             set(fine.pointOfValue.size() + i, middleOf(corners[0], corners[2]));
         }
     }

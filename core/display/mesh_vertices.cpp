@@ -10,6 +10,9 @@ namespace {
 
 using surface::Region;
 
+/// Cuts of a curved leaf after which its light is nearly linear in each part.
+constexpr unsigned kCutsForTwo = 2;
+
 class Collector {
   public:
     Collector(const PatchTopology& topology, const PointTable& points, const std::vector<Cell>& cells)
@@ -38,7 +41,10 @@ class Collector {
                     });
                 }
             }
-            if (cell.cornerCount == 4) {
+            own.isFan = cell.cornerCount == 4 &&
+                        (surface::pathLevel(cell.cuts) < kCutsForTwo || surface.isPlanar(cell.patch) ||
+                         own.middles != CellVertices{}.middles);
+            if (own.isFan) {
                 // As quartering would find it.
                 out_.centers[i] = surface.splitPoint(
                     cell.patch, surface.splitPoint(cell.patch, region.corners[3], region.corners[0]),

@@ -22,6 +22,9 @@ struct Vertex {
 struct CellVertices {
     std::array<std::uint32_t, 4> corners{kNone, kNone, kNone, kNone};
     std::array<std::uint32_t, 4> middles{kNone, kNone, kNone, kNone};
+    /// A quad shown as triangles about its middle. Others are small parts of curved leaves, on whose edges
+    /// nothing hangs: two triangles show the same.
+    bool isFan = false;
 };
 
 struct MeshVertices {
@@ -29,7 +32,7 @@ struct MeshVertices {
     std::vector<Vec3d> positions;      ///< of points
     std::vector<std::uint32_t> heads;  ///< of points: first vertex
     std::vector<CellVertices> cells;   ///< parallel to the cells
-    std::vector<Vec2d> centers;        ///< (u,v) of the cells' middles, parallel to the cells
+    std::vector<Vec2d> centers;        ///< (u,v) of the fans' middles, parallel to the cells
     std::vector<std::uint32_t> pointOfValue;
 };
 

@@ -179,7 +179,10 @@ class Refiner {
                 (side % 2 == 0 ? cuts.x : cuts.y) = true;
             }
         }
+        // Asked for by sides alone, which only the parts next to them share.
+        bool isOfSides = cuts.any();
         if (!(cuts.x && cuts.y) && !hasCommonAxis(i, shape)) {
+            isOfSides = false;
             const double alongX = shape.turnAlong(Axis::x);
             const double alongY = shape.turnAlong(Axis::y);
             // A bound that is wider than what turns is not known to be so along one axis.
@@ -194,8 +197,9 @@ class Refiner {
             const Axis across = along == Axis::x ? Axis::y : Axis::x;
             const bool isOnlyAcross = along == Axis::x ? cuts.y && !cuts.x : cuts.x && !cuts.y;
             const double ratio = shape.longestAlong(along) / shape.longestAlong(across);
-            if (isOnlyAcross && longFirst_ > 0.0 && ratio > longFirst_ && ratio < kVeryLong &&
-                leafCount_ < mostCells_ / kLaterCuts && mayCutForShape(cell, shape, along)) {
+            const bool isCheap = isOfSides || (ratio < kVeryLong && leafCount_ < mostCells_ / kLaterCuts);
+            if (isOnlyAcross && longFirst_ > 0.0 && ratio > longFirst_ && isCheap &&
+                mayCutForShape(cell, shape, along)) {
                 return {along == Axis::x, along == Axis::y};
             }
         }

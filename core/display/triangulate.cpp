@@ -1,8 +1,13 @@
 #include "core/display/triangulate.h"
 
+#include <algorithm>
+
 namespace fluxwalk::display {
 
 namespace {
+
+/// Squared lengths of diagonals that differ by more than this factor tell which one to cut along.
+constexpr float kSheared = 1.2f;
 
 class Triangulator {
   public:
@@ -24,8 +29,10 @@ class Triangulator {
         for (std::size_t i = 0; i < cells.size(); ++i) {
             firstTriangle.push_back(triangleCount());
             const CellVertices& own = vertices_.cells[i];
-            if (cells[i].cornerCount == 4) {
-                addQuad(own, cells[i].patch, i);
+            if (own.isFan) {
+                addFan(own, cells[i].patch, i);
+            } else if (cells[i].cornerCount == 4) {
+                addPair(own, cells[i]);
             } else {
                 addTriangleCell(own);
             }
@@ -103,7 +110,7 @@ class Triangulator {
         mesh_.triangles.push_back(mesh_.back ? b : c);
     }
 
-    void addQuad(const CellVertices& own, std::uint32_t patch, std::size_t cell) {
+    void addFan(const CellVertices& own, std::uint32_t patch, std::size_t cell) {
         std::array<std::uint32_t, 8> ring{};
         unsigned count = 0;
         for (unsigned k = 0; k < 4; ++k) {
@@ -119,6 +126,42 @@ class Triangulator {
         for (unsigned k = 0; k < count; ++k) {
             addTriangle(center, ring[k], ring[k + 1 == count ? 0 : k + 1]);
         }
+    }
+
+    // Two triangles, cut from the middle of the leaf outwards, as its own fan is; but along the shorter
+    // diagonal where they differ much.
+    void addPair(const CellVertices& own, const Cell& cell) {
+        std::array<std::uint32_t, 4> corner{};
+        for (unsigned k = 0; k < 4; ++k) {
+            corner[k] = indexOf(own.corners[k]);
+        }
+        const auto length2 = [&](unsigned a, unsigned b) {
+            const Vec3 between = mesh_.positions[corner[b]] - mesh_.positions[corner[a]];
+            return glm::dot(between, between);
+        };
+        const float rising = length2(0, 2);
+        const float falling = length2(1, 3);
+        const bool isRising = std::max(rising, falling) > kSheared * std::min(rising, falling)
+                                  ? rising < falling
+                                  : liesOnRisingDiagonal(cell);
+        const unsigned first = isRising ? 0 : 1;
+        addTriangle(corner[first], corner[first + 1], corner[first + 2]);
+        addTriangle(corner[first], corner[first + 2], corner[(first + 3) % 4]);
+    }
+
+    // Whether a part of a leaf is in its quarters at corners 0 and 2.
+    static bool liesOnRisingDiagonal(const Cell& cell) {
+        std::array<unsigned, 2> half{};
+        std::array<bool, 2> isKnown{};
+        for (unsigned level = 0; level < surface::pathLevel(cell.cuts); ++level) {
+            const unsigned step = surface::pathStep(cell.cuts, level);
+            const auto axis = static_cast<unsigned>(axisOfStep(step));
+            if (!isKnown[axis]) {
+                half[axis] = step & 1u;
+                isKnown[axis] = true;
+            }
+        }
+        return half[0] == half[1];
     }
 
     void addTriangleCell(const CellVertices& own) {
