@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/file.h"
-#include "tests/bench/convergence.h"
+#include "tests/bench/cost.h"
 #include "tests/support/curved_room.h"
 #include "tests/support/tessellate.h"
 
@@ -29,14 +29,10 @@ struct Arguments {
     std::uint64_t paths = 100'000;
 };
 
-struct Target {
-    solve::ErrorOf what{};
-    double error = 0.0;
-};
-constexpr std::array<Target, 4> kTargets{{{solve::ErrorOf::gathered, 0.07},
-                                          {solve::ErrorOf::gathered, 0.03},
-                                          {solve::ErrorOf::displayed, 0.08},
-                                          {solve::ErrorOf::displayed, 0.05}}};
+constexpr std::array<ErrorTarget, 4> kTargets{{{solve::ErrorOf::gathered, 0.07},
+                                               {solve::ErrorOf::gathered, 0.03},
+                                               {solve::ErrorOf::displayed, 0.08},
+                                               {solve::ErrorOf::displayed, 0.05}}};
 /// Segments along each side of a curved patch. Links start between all pairs of patches: with more, those
 /// alone take minutes.
 constexpr std::array<std::uint32_t, 4> kSegments{1, 2, 3, 4};
@@ -78,51 +74,14 @@ Variant tessellateScene(const scene::Scene& exact, const std::vector<ReferencePo
     return variant;
 }
 
-/// Means of a solve where its error passes the target.
-struct Cost {
-    bool isReached = false;
+/// What a variant costs where its error passes the target.
+struct VariantCost : Cost {
     std::uint32_t segments = 0;
-    double patches = 0.0;
-    double leaves = 0.0;
-    double links = 0.0;
-    double rays = 0.0;
-    double seconds = 0.0;
-    double bytes = 0.0;
+    std::size_t patches = 0;
 };
 
-double bytesOf(const solve::Counters& c) {
-    return static_cast<double>(c.bytesNodes + c.bytesLinks);
-}
-
-// Between two levels on a straight line in logarithms, as levels are a factor of four apart.
-Cost costAt(const Variant& variant, std::span<const Level> levels, const Target& target) {
-    Cost cost;
-    const Level* below = firstBelow(levels, target.what, target.error);
-    if (below == nullptr) {
-        return cost;
-    }
-    double part = 1.0;
-    const Level& above = below == levels.data() ? *below : *(below - 1);
-    if (&above != below) {
-        const double from = above.errors.of(target.what);
-        const double to = std::max(below->errors.of(target.what), 1e-3 * target.error);
-        part = std::log(from / target.error) / std::log(from / to);
-    }
-    const auto between = [part](double from, double to) { return from * std::pow(to / from, part); };
-    const solve::Counters& from = above.statistics.counters;
-    const solve::Counters& to = below->statistics.counters;
-    const auto count = [&](std::uint64_t solve::Counters::*member) {
-        return between(static_cast<double>(from.*member), static_cast<double>(to.*member));
-    };
-    cost = {true,
-            variant.segments,
-            static_cast<double>(variant.patches),
-            count(&solve::Counters::leaves),
-            count(&solve::Counters::links),
-            count(&solve::Counters::rays),
-            between(above.duration.seconds, below->duration.seconds),
-            between(bytesOf(from), bytesOf(to))};
-    return cost;
+VariantCost costOf(const Variant& variant, std::span<const Level> levels, const ErrorTarget& target) {
+    return {costAt(levels, target), variant.segments, variant.patches};
 }
 
 std::vector<Level> solveVariant(const Arguments& arguments, const Variant& variant) {
@@ -145,16 +104,16 @@ std::size_t countPatches(const Variant& variant, unsigned threads) {
     return solver.problem().hierarchy.patches().size();
 }
 
-std::string formatRow(const char* name, const Cost& c) {
+std::string formatRow(const char* name, const VariantCost& c) {
     if (!c.isReached) {
         return fmt::format("  {:<12} not reached\n", name);
     }
     const std::string cut = c.segments == 0 ? "" : fmt::format("{0} x {0}", c.segments);
-    return fmt::format("  {:<12} {:>7} {:>8.0f} {:>9.0f} {:>9.0f} {:>8.2f} {:>8.2f} {:>8.1f}\n", name, cut,
+    return fmt::format("  {:<12} {:>7} {:>8} {:>9.0f} {:>9.0f} {:>8.2f} {:>8.2f} {:>8.1f}\n", name, cut,
                        c.patches, c.leaves, c.links, 1e-6 * c.rays, c.seconds, 1e-6 * c.bytes);
 }
 
-nlohmann::ordered_json toJson(const Cost& c) {
+nlohmann::ordered_json toJson(const VariantCost& c) {
     return {{"reached", c.isReached}, {"segments", c.segments}, {"patches", c.patches},
             {"elements", c.leaves},   {"links", c.links},       {"rays", c.rays},
             {"seconds", c.seconds},   {"bytes", c.bytes}};
@@ -171,13 +130,13 @@ void compareVariants(const Arguments& arguments) {
     }
     exact.patches = countPatches(exact, arguments.threads);
     const std::vector<Level> levels = solveVariant(arguments, exact);
-    std::array<Cost, kTargets.size()> asIs;
-    std::array<Cost, kTargets.size()> asFacets;
+    std::array<VariantCost, kTargets.size()> asIs;
+    std::array<VariantCost, kTargets.size()> asFacets;
     for (std::size_t t = 0; t < kTargets.size(); ++t) {
-        asIs[t] = costAt(exact, levels, kTargets[t]);
+        asIs[t] = costOf(exact, levels, kTargets[t]);
     }
     for (const std::uint32_t segments : kSegments) {
-        if (std::all_of(asFacets.begin(), asFacets.end(), [](const Cost& c) { return c.isReached; })) {
+        if (std::all_of(asFacets.begin(), asFacets.end(), [](const VariantCost& c) { return c.isReached; })) {
             break;
         }
         Variant flat = tessellateScene(*exact.scene, reference.points, sites, segments);
@@ -198,7 +157,7 @@ void compareVariants(const Arguments& arguments) {
         std::fflush(stdout);
         for (std::size_t t = 0; t < kTargets.size(); ++t) {
             if (!asFacets[t].isReached) {
-                asFacets[t] = costAt(flat, flatLevels, kTargets[t]);
+                asFacets[t] = costOf(flat, flatLevels, kTargets[t]);
             }
         }
     }
