@@ -1,5 +1,7 @@
 #include "core/solve/assess_link.h"
 
+#include <algorithm>
+
 #include "core/base/normal_cone.h"
 #include "core/base/photometry.h"
 #include "core/transport/certain_bounds.h"
@@ -38,11 +40,12 @@ bool hasConstantKernel(const Hierarchy& h, const Link& link) {
 /// Of the rays between clusters, few say anything of one pair of their surfaces.
 constexpr unsigned kTellingRays = 16;
 
-float visibilityUpper(const Link& link, bool isCluster) {
+float visibilityUpper(const Link& link, bool isCluster, transport::RayCount rays) {
     if (link.isOpen()) {
         return 1.0f;
     }
-    return transport::visibilityUpperBound(link.visibility(), isCluster ? kTellingRays : transport::kAllRays);
+    const unsigned all = transport::raysOf(rays);
+    return transport::visibilityUpperBound(link.visibility(), isCluster ? std::min(kTellingRays, all) : all);
 }
 
 // Whether rays were blocked and rays passed.
@@ -66,7 +69,7 @@ transport::LinkAssessment assessLink(const Problem& problem, const Link& link, f
     // Every view of the sky is a mixture; what counts is how it differs over the receiver, its spread.
     k.isMixed = isPartlyBlocked(link) && kindB != NodeKind::sky;
     k.isCluster = h.kind(link.a) == NodeKind::cluster || kindB == NodeKind::cluster;
-    k.visibilityUpper = visibilityUpper(link, k.isCluster);
+    k.visibilityUpper = visibilityUpper(link, k.isCluster, problem.options.visibilityRays);
     k.spreadA = hierarchy::UncertaintyCode::decode(link.spreadA);
     k.spreadB = isOneWay ? 0.0f : hierarchy::UncertaintyCode::decode(link.spreadB);
     // Where the kernel is one constant, distance makes up for what the cosines do.

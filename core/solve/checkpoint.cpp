@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kKind = "fluxwalk checkpoint";
 /// Changes with the arrays and with whatever alters the bits of a solve.
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kMaxHistory = 100'000;
 constexpr std::uint32_t kMostSweeps = 1000;
 
@@ -229,6 +229,7 @@ void checkFixed(const Problem& problem, const Options& stored, const base::Array
     check(problem.options.seed == stored.seed, "seed");
     check(problem.options.clusters == stored.clusters, "clusters");
     check(problem.options.clusterModel == stored.clusterModel, "cluster-model");
+    check(problem.options.visibilityRays == stored.visibilityRays, "visibility-rays");
     check(problem.options.rays == stored.rays, "rays");
 }
 

@@ -7,6 +7,7 @@
 #include "core/scene/lighting.h"
 #include "core/transport/cluster_model.h"
 #include "core/transport/oracle.h"
+#include "core/transport/visibility.h"
 
 /// What the user may turn. Every value has a unit and a default; cli and viewer show the same table.
 namespace fluxwalk::solve {
@@ -15,6 +16,7 @@ using rays::RayEngine;
 using rays::TreeBuilder;
 using transport::ClusterModel;
 using transport::OracleKind;
+using transport::RayCount;
 
 /// Where the requested error is to hold.
 enum class ErrorOf : std::uint8_t {
@@ -66,6 +68,8 @@ struct Options {
     TreeBuilder clusters = TreeBuilder::sah;
     /// What clusters are taken for in transport. Fixed when a solver is made.
     ClusterModel clusterModel = ClusterModel::oriented;
+    /// Rays of visibility for each pair. Fixed when a solver is made.
+    RayCount visibilityRays = RayCount::usual;
     /// What answers rays of visibility. Fixed when a solver is made.
     RayEngine rays = RayEngine::embree;
     std::uint64_t seed = 1;

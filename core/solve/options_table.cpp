@@ -145,6 +145,17 @@ std::vector<OptionInfo> makeTable() {
          .get = [](const Options& o) { return static_cast<double>(o.clusterModel); },
          .set = [](Options& o, double value) { o.clusterModel = static_cast<ClusterModel>(value); }});
     table.push_back(
+        {.name = "visibility-rays",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 2.0,
+         .choices = {"16", "64", "256"},
+         .explanation =
+             "Rays that tell how much two elements see of each other. Fewer are faster and miss thin beams "
+             "and shadows; more make penumbrae cleaner. Turned while solving, the solve begins anew.",
+         .get = [](const Options& o) { return static_cast<double>(o.visibilityRays); },
+         .set = [](Options& o, double value) { o.visibilityRays = static_cast<RayCount>(value); }});
+    table.push_back(
         {.name = "rays",
          .kind = OptionKind::choice,
          .minimum = 0.0,

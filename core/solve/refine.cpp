@@ -35,7 +35,8 @@ class Refinement {
     Refinement(Problem& problem, double threshold)
         : problem_(problem),
           hierarchy_(problem.hierarchy),
-          service_(problem.hierarchy, problem.rays, problem.options.clusterModel),
+          service_(problem.hierarchy, problem.rays, problem.options.clusterModel,
+                   problem.options.visibilityRays),
           threshold_(static_cast<float>(threshold)),
           minArea_(problem.minArea()),
           sceneArea_(static_cast<float>(problem.hierarchy.totalArea())),

@@ -61,6 +61,7 @@ void Run::takeNewOptions() {
     problem_.options.clusters = built.clusters;
     problem_.options.clusterModel = built.clusterModel;
     problem_.options.rays = built.rays;
+    problem_.options.visibilityRays = built.visibilityRays;
     if (problem_.hierarchy.patches().size() > kMaxPairedPatches) {
         problem_.options.clusterLinks = ClusterLinks::on;
     }

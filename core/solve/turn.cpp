@@ -52,7 +52,8 @@ Asked mergeAsked(const Asked& earlier, const Asked& later) {
 
 bool needsNewSolver(const Options& before, const Options& after) {
     return before.seed != after.seed || before.clusters != after.clusters ||
-           before.clusterModel != after.clusterModel || before.rays != after.rays;
+           before.clusterModel != after.clusterModel || before.rays != after.rays ||
+           before.visibilityRays != after.visibilityRays;
 }
 
 }  // namespace fluxwalk::solve

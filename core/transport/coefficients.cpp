@@ -179,7 +179,7 @@ Coefficient CoefficientService::withClusters(const Query& query) const {
         out.isMixed = out.visibility > 0.0f && out.visibility < 1.0f;
         return out;
     }
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, rayCount_);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.gradientB += base::Vec2(seen.gradientB);
@@ -242,7 +242,7 @@ Coefficient CoefficientService::betweenElements(const Query& query) const {
         case ShaftContent::unknown:
             break;
     }
-    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b);
+    const VisibilitySample seen = sampleVisibility(hierarchy_, rays_, query.a, query.b, rayCount_);
     out.visibility = seen.mean;
     out.shadowA = base::Vec2(seen.gradientA);
     out.shadowB = base::Vec2(seen.gradientB);
@@ -292,7 +292,7 @@ Coefficient CoefficientService::fromSource(const Query& query) const {
     if (out.coupling <= 0.0f) {
         return out;
     }
-    const VisibilitySample seen = sampleSourceVisibility(hierarchy_, rays_, query.a, query.b);
+    const VisibilitySample seen = sampleSourceVisibility(hierarchy_, rays_, query.a, query.b, rayCount_);
     out.visibility = seen.mean;
     out.gradientA += base::Vec2(seen.gradientA);
     out.rays = seen.rays;

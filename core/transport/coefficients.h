@@ -7,6 +7,7 @@
 #include "core/hierarchy/hierarchy.h"
 #include "core/rays/ray_scene.h"
 #include "core/transport/cluster_model.h"
+#include "core/transport/visibility.h"
 
 namespace fluxwalk::transport {
 
@@ -41,8 +42,8 @@ struct Coefficient {
 class CoefficientService {
   public:
     CoefficientService(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
-                       ClusterModel model = ClusterModel::oriented)
-        : hierarchy_(hierarchy), rays_(rays), model_(model) {}
+                       ClusterModel model = ClusterModel::oriented, RayCount rayCount = RayCount::usual)
+        : hierarchy_(hierarchy), rays_(rays), model_(model), rayCount_(rayCount) {}
 
     /// out.size() == queries.size(). Safe to call from several threads on disjoint spans.
     void compute(std::span<const Query> queries, std::span<Coefficient> out) const;
@@ -59,6 +60,7 @@ class CoefficientService {
     const hierarchy::Hierarchy& hierarchy_;
     const rays::RayScene& rays_;
     ClusterModel model_;
+    RayCount rayCount_;
 };
 
 /// Largest visibility that k of n unblocked rays still allow: (k + 1) / (n + 2) and one standard deviation; 1

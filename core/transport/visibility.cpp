@@ -17,6 +17,16 @@ namespace {
 
 using base::Vec3d;
 
+/// Rays that are cast at a time; pairs of more cast several such bundles.
+constexpr unsigned kBundle = 64;
+
+unsigned sideOf(RayCount count) {
+    return count == RayCount::few ? 4 : 8;
+}
+unsigned bundlesOf(RayCount count) {
+    return std::max(1u, raysOf(count) / kBundle);
+}
+
 /// Uniform numbers of 16 bits each, four from one mix: strata are far coarser than that.
 struct Jitter {
     double x;
@@ -141,11 +151,11 @@ class EndSampler {
 Stage castPairs(const rays::RayScene& rays, const EndSampler& a, const EndSampler& b, unsigned side,
                 std::uint64_t key) {
     const unsigned count = side * side;
-    std::array<rays::Ray, kAllRays> bundle;
-    std::array<double, kAllRays> weights{};
-    std::array<base::Vec2d, kAllRays> localA;
-    std::array<base::Vec2d, kAllRays> localB;
-    std::array<std::uint8_t, kAllRays> blocked{};
+    std::array<rays::Ray, kBundle> bundle;
+    std::array<double, kBundle> weights{};
+    std::array<base::Vec2d, kBundle> localA;
+    std::array<base::Vec2d, kBundle> localB;
+    std::array<std::uint8_t, kBundle> blocked{};
     const Pairing partner(side, key);
     unsigned used = 0;
     for (unsigned i = 0; i < count; ++i) {
@@ -183,7 +193,7 @@ VisibilitySample toSample(const Stage& stage) {
 }  // namespace
 
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b) {
+                                  NodeId b, RayCount count) {
     std::uint64_t keyA = hierarchy.key(a);
     std::uint64_t keyB = hierarchy.key(b);
     const bool isSwapped = keyA > keyB;
@@ -194,10 +204,20 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     const std::uint64_t key = base::combine(keyA, keyB);
     const EndSampler onA(hierarchy, a, base::toUnit(base::mix(key ^ keyA)));
     const EndSampler onB(hierarchy, b, base::toUnit(base::mix(key ^ keyB)));
-    Stage stage = castPairs(rays, onA, onB, 8, key);
+    // One bundle after the other, each keyed by its number.
+    Stage stage;
+    unsigned cast = 0;
+    const auto castBundles = [&](unsigned bundles) {
+        for (const unsigned end = cast + bundles; cast < end; ++cast) {
+            stage.add(castPairs(rays, onA, onB, sideOf(count), cast == 0 ? key : base::mix(key + cast)));
+        }
+    };
+    const unsigned bundles = bundlesOf(count);
+    castBundles(bundles);
     const bool isWithCluster = hierarchy.shape(a).cornerCount == 0 || hierarchy.shape(b).cornerCount == 0;
-    for (unsigned round = 1; isWithCluster && stage.count < kAllRays / 2 && round < kFacingRounds; ++round) {
-        stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
+    for (unsigned round = 1; isWithCluster && stage.count < raysOf(count) / 2 && round < kFacingRounds;
+         ++round) {
+        castBundles(bundles);
     }
     VisibilitySample sample = toSample(stage);
     if (sample.isMixed) {
@@ -206,9 +226,7 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
         const float distance = glm::distance(shapeA.center, shapeB.center);
         const bool areElements = shapeA.cornerCount > 0 && shapeB.cornerCount > 0;
         if (areElements && distance < kNearPair * (shapeA.radius + shapeB.radius)) {
-            for (unsigned round = 1; round < kNearRounds; ++round) {
-                stage.add(castPairs(rays, onA, onB, 8, base::mix(key + round)));
-            }
+            castBundles((kNearRounds - 1) * bundles);
         }
         sample = toSample(stage);
         sample.isMixed = true;
@@ -222,65 +240,100 @@ VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const r
     return sample;
 }
 
-VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
-                                        NodeId element, NodeId source) {
-    const std::uint64_t key = base::combine(hierarchy.key(element), hierarchy.key(source));
-    const ElementSampler sampler(hierarchy, element, base::toUnit(base::mix(key)));
-    const bool isSky = hierarchy.kind(source) == hierarchy::NodeKind::sky;
-    const unsigned side = 8;
-    std::array<rays::Ray, kAllRays> bundle;
-    std::array<double, kAllRays> weights{};
-    std::array<unsigned, kAllRays> quarters{};
-    std::array<base::Vec2d, kAllRays> locals;
-    std::array<std::uint8_t, kAllRays> blocked{};
-    const Pairing partner(side, key);
-    unsigned used = 0;
-    for (unsigned i = 0; i < side * side; ++i) {
-        const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
-        const SurfaceSample p = sampler.inStratum(i, side, jitter.x, jitter.y);
-        rays::Ray ray;
-        double weight = p.measure;
-        if (isSky) {
-            // Directions uniform over the upper hemisphere.
-            const unsigned j = partner(i);
-            const double y = (j % side + jitter.z) / side;
-            const unsigned row = j / side;
-            const double angle = 2.0 * base::kPi * (row + jitter.w) / side;
-            const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
-            const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
-            weight *= std::max(0.0, glm::dot(p.normal, direction));
-            ray = rays.halfLine(p.position, p.normal, direction);
-        } else {
-            const scene::Light& light = hierarchy.scene().lights[hierarchy.lightIndex(source)];
-            if (light.kind == scene::LightKind::directional) {
-                weight *= std::max(0.0, -glm::dot(p.normal, light.direction));
-                ray = rays.halfLine(p.position, p.normal, -light.direction);
-            } else {
-                const Vec3d d = light.position - p.position;
-                const double r2 = std::max(glm::dot(d, d), 1e-12);
-                weight *= scene::reaches(light, r2)
-                              ? std::max(0.0, glm::dot(p.normal, d)) / (r2 * std::sqrt(r2))
-                              : 0.0;
-                ray = rays.segment(p.position, p.normal, light.position, Vec3d(0.0));
-            }
-        }
-        if (weight > 0.0) {
-            weights[used] = weight;
-            locals[used] = p.local;
-            quarters[used] = (i % side) / 4 + 2 * (i / side / 4);
-            bundle[used++] = ray;
-        }
-    }
-    rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+namespace {
+
+/// Rays from an element towards a source without area: all, and those from each quarter of it.
+struct SourceStages {
     Stage whole;
     std::array<Stage, 4> quarter;
-    for (unsigned i = 0; i < used; ++i) {
-        whole.addPair(weights[i], blocked[i] != 0, locals[i], base::Vec2d(0.0));
-        quarter[quarters[i]].add(weights[i], blocked[i] != 0);
+};
+
+class SourceCaster {
+  public:
+    SourceCaster(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId element,
+                 NodeId source, unsigned side, std::uint64_t key)
+        : hierarchy_(hierarchy),
+          rays_(rays),
+          source_(source),
+          isSky_(hierarchy.kind(source) == hierarchy::NodeKind::sky),
+          side_(side),
+          sampler_(hierarchy, element, base::toUnit(base::mix(key))) {}
+
+    void cast(std::uint64_t key, SourceStages& stages) const {
+        std::array<Aim, kBundle> aims;
+        std::array<rays::Ray, kBundle> bundle;
+        std::array<std::uint8_t, kBundle> blocked{};
+        const Pairing partner(side_, key);
+        unsigned used = 0;
+        for (unsigned i = 0; i < side_ * side_; ++i) {
+            const Jitter jitter(base::mix(key + 0x9e3779b97f4a7c15ULL * (i + 1)));
+            const SurfaceSample p = sampler_.inStratum(i, side_, jitter.x, jitter.y);
+            const double weight = p.measure * (isSky_ ? aimAtSky(p, partner(i), jitter, bundle[used])
+                                                      : aimAtLight(p, bundle[used]));
+            if (weight > 0.0) {
+                const unsigned row = i / side_;
+                aims[used++] = {weight, p.local, 2 * (i % side_) / side_ + 2 * (2 * row / side_)};
+            }
+        }
+        rays_.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
+        for (unsigned i = 0; i < used; ++i) {
+            stages.whole.addPair(aims[i].weight, blocked[i] != 0, aims[i].local, base::Vec2d(0.0));
+            stages.quarter[aims[i].quarter].add(aims[i].weight, blocked[i] != 0);
+        }
     }
-    VisibilitySample sample = toSample(whole);
-    sample.gradientA = whole.shadowGradient(0, hierarchy::localFrame(hierarchy.shape(element).cornerCount));
-    for (const Stage& part : quarter) {
+
+  private:
+    struct Aim {
+        double weight = 0.0;
+        base::Vec2d local{};
+        unsigned quarter = 0;
+    };
+
+    // Directions uniform over the upper hemisphere. Both return the weight, 0 where nothing can arrive.
+    double aimAtSky(const SurfaceSample& p, unsigned stratum, const Jitter& jitter, rays::Ray& ray) const {
+        const double y = (stratum % side_ + jitter.z) / side_;
+        const unsigned row = stratum / side_;
+        const double angle = 2.0 * base::kPi * (row + jitter.w) / side_;
+        const double flat = std::sqrt(std::max(0.0, 1.0 - y * y));
+        const Vec3d direction(flat * std::cos(angle), y, flat * std::sin(angle));
+        ray = rays_.halfLine(p.position, p.normal, direction);
+        return std::max(0.0, glm::dot(p.normal, direction));
+    }
+
+    double aimAtLight(const SurfaceSample& p, rays::Ray& ray) const {
+        const scene::Light& light = hierarchy_.scene().lights[hierarchy_.lightIndex(source_)];
+        if (light.kind == scene::LightKind::directional) {
+            ray = rays_.halfLine(p.position, p.normal, -light.direction);
+            return std::max(0.0, -glm::dot(p.normal, light.direction));
+        }
+        const Vec3d d = light.position - p.position;
+        const double r2 = std::max(glm::dot(d, d), 1e-12);
+        ray = rays_.segment(p.position, p.normal, light.position, Vec3d(0.0));
+        return scene::reaches(light, r2) ? std::max(0.0, glm::dot(p.normal, d)) / (r2 * std::sqrt(r2)) : 0.0;
+    }
+
+    const hierarchy::Hierarchy& hierarchy_;
+    const rays::RayScene& rays_;
+    NodeId source_;
+    bool isSky_;
+    unsigned side_;
+    ElementSampler sampler_;
+};
+
+}  // namespace
+
+VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
+                                        NodeId element, NodeId source, RayCount count) {
+    const std::uint64_t key = base::combine(hierarchy.key(element), hierarchy.key(source));
+    const SourceCaster caster(hierarchy, rays, element, source, sideOf(count), key);
+    SourceStages stages;
+    for (unsigned bundle = 0; bundle < bundlesOf(count); ++bundle) {
+        caster.cast(bundle == 0 ? key : base::mix(key + bundle), stages);
+    }
+    VisibilitySample sample = toSample(stages.whole);
+    sample.gradientA =
+        stages.whole.shadowGradient(0, hierarchy::localFrame(hierarchy.shape(element).cornerCount));
+    for (const Stage& part : stages.quarter) {
         if (part.count > 0) {
             sample.deviation =
                 std::max(sample.deviation, std::abs(static_cast<float>(part.ratio()) - sample.mean));

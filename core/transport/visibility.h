@@ -21,9 +21,13 @@ struct VisibilitySample {
     bool isMixed = false;  ///< some were blocked and some were not
 };
 
-/// Rays of a pair. Of those between clusters many face away and are not cast:
-/// where less than half are left, others are drawn, this many times at most in all.
-inline constexpr unsigned kAllRays = 64;
+/// Rays of a pair.
+enum class RayCount : std::uint8_t { few, usual, many };
+constexpr unsigned raysOf(RayCount count) {
+    return count == RayCount::few ? 16 : count == RayCount::usual ? 64 : 256;
+}
+/// Of those between clusters many face away and are not cast: where less than half are left, others are
+/// drawn, this many times at most in all.
 inline constexpr unsigned kFacingRounds = 4;
 /// Pairs nearer than this many times the sum of their radii exchange much through a kernel that varies much:
 /// if they see each other partly, as many rays are cast again and again. They are few. (Furnace of check 7:
@@ -40,10 +44,10 @@ inline constexpr unsigned kNearRounds = 16;
 /// links. Cloud of 1,000 triangles in a closed room: 1.3 % too much in the balance, .2 % without the stage,
 /// for 3 % more rays in furnished rooms.)
 VisibilitySample sampleVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays, NodeId a,
-                                  NodeId b);
+                                  NodeId b, RayCount count = RayCount::usual);
 
 /// Between an element and a light source without area, or the sky.
 VisibilitySample sampleSourceVisibility(const hierarchy::Hierarchy& hierarchy, const rays::RayScene& rays,
-                                        NodeId element, NodeId source);
+                                        NodeId element, NodeId source, RayCount count = RayCount::usual);
 
 }  // namespace fluxwalk::transport

@@ -1,5 +1,7 @@
 #include "core/transport/visibility.h"
 
+#include <array>
+#include <cmath>
 #include <functional>
 
 #include <gtest/gtest.h>
@@ -39,7 +41,7 @@ struct Bias {
     double truth = 0.0;
     double deviation = 0.0;  ///< of one estimate
 };
-Bias findBias(const Case& c, std::uint64_t seeds) {
+Bias findBias(const Case& c, std::uint64_t seeds, transport::RayCount count = transport::RayCount::usual) {
     Sample estimates;
     Truth truth;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -49,7 +51,7 @@ Bias findBias(const Case& c, std::uint64_t seeds) {
         if (seed == 0) {
             truth = findTruth(built, a, b, 1'000'000);
         }
-        const VisibilitySample seen = sampleVisibility(built.tree, built.rays, a, b);
+        const VisibilitySample seen = sampleVisibility(built.tree, built.rays, a, b, count);
         estimates.add(static_cast<double>(seen.mean));
     }
     return {estimates.mean() - truth.value, std::hypot(estimates.standardError(), truth.error), truth.value,
@@ -193,7 +195,7 @@ TEST(VisibilitySampling, isTheSameBothWaysAndInEveryRun) {
         }
         EXPECT_GE(ab.mean, 0.0f);
         EXPECT_LE(ab.mean, 1.0f);
-        EXPECT_LE(ab.rays, transport::kNearRounds * transport::kAllRays);
+        EXPECT_LE(ab.rays, transport::kNearRounds * transport::raysOf(transport::RayCount::usual));
         EXPECT_TRUE(ab.isMixed || ab.mean == 0.0f || ab.mean == 1.0f);
         mixed += ab.isMixed ? 1 : 0;
     }
@@ -212,7 +214,26 @@ TEST(VisibilitySampling, isNotBiasedNearTheEnds) {
 
 TEST(VisibilitySampling, castsAllRaysWhereNothingIsBlocked) {
     Built free(halfHidden(2.0, kUnit));
-    EXPECT_EQ(sampleVisibility(free.tree, free.rays, object0(free), object1(free)).rays, transport::kAllRays);
+    EXPECT_EQ(sampleVisibility(free.tree, free.rays, object0(free), object1(free)).rays,
+              transport::raysOf(transport::RayCount::usual));
+}
+
+// Fewer rays are as right in the mean, and more noisy by no more than the smaller number allows.
+TEST(VisibilitySampling, isRightWithAnyNumberOfRays) {
+    using transport::RayCount;
+    const Case c{[] { return halfHidden(0.4, kUnit); }, object0, object1};
+    std::array<double, 3> deviation{};
+    for (const RayCount count : {RayCount::few, RayCount::usual, RayCount::many}) {
+        Built free(halfHidden(2.0, kUnit));
+        EXPECT_EQ(sampleVisibility(free.tree, free.rays, object0(free), object1(free), count).rays,
+                  transport::raysOf(count));
+        const Bias bias = findBias(c, 400, count);
+        EXPECT_LT(std::abs(bias.value), kSigmas * bias.error) << transport::raysOf(count);
+        deviation[static_cast<std::size_t>(count)] = bias.deviation;
+        EXPECT_LT(bias.deviation, 0.5 / std::sqrt(static_cast<double>(transport::raysOf(count))));
+    }
+    EXPECT_GT(deviation[0], 1.5 * deviation[1]);
+    EXPECT_GT(deviation[1], 1.5 * deviation[2]);
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST_F(SolutionSection, EveryWidgetTurnsItsOptionAndNoOther) {
     }
     EXPECT_EQ(names, (std::vector<std::string>{"cluster-links", "cluster-model", "clusters",
                                                "curvature-weight", "error", "min-area", "oracle", "pull",
-                                               "rays", "row-scaling", "threshold"}));
+                                               "rays", "row-scaling", "threshold", "visibility-rays"}));
 }
 
 /// What a solution of these options is made of.

@@ -21,6 +21,7 @@ bool drawSolution(const PanelInfo& info, solve::Options& options) {
     isChanged |= drawOption("cluster-links", "Cluster links", options);
     isChanged |= drawOption("cluster-model", "Clusters are", options);
     isChanged |= drawOption("clusters", "Built by", options);
+    isChanged |= drawOption("visibility-rays", "Rays a pair", options);
     isChanged |= drawOption("rays", "Rays", options);
     isChanged |= drawOption("pull", "Pull", options);
     isChanged |= drawOption("row-scaling", "Row scaling", options);
