@@ -29,15 +29,34 @@ bool isTextured(const scene::Material& material) {
     return material.reflectanceTexture.isSet() || material.emissionTexture.isSet();
 }
 
+bool isFlat(const surface::Surface& surface) {
+    for (std::uint32_t patch = 0; patch < surface.patchCount(); ++patch) {
+        if (!surface.isPlanar(patch)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 ShadedScene::ShadedScene(const scene::Scene& scene, const rays::RayScene& rays)
-    : scene_(scene), rays_(rays), textures_(scene), power_(scene.objects.size()) {
+    : scene_(scene),
+      rays_(rays),
+      textures_(scene),
+      planes_(scene.objects.size()),
+      power_(scene.objects.size()) {
     double cumulative = 0.0;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
         const scene::Material& material = scene.materials[object.material];
         if (!material.isEmissive()) {
+            if (!isTextured(material) && isFlat(*object.surface)) {
+                for (std::uint32_t patch = 0; patch < object.surface->patchCount(); ++patch) {
+                    const surface::SurfacePoint p = object.surface->evaluate(patch, Vec2d(0.25));
+                    planes_[i].push_back({p.normal, glm::dot(p.normal, p.position)});
+                }
+            }
             continue;
         }
         for (std::uint32_t patch = 0; patch < object.surface->patchCount(); ++patch) {
@@ -87,9 +106,24 @@ std::optional<SidePoint> ShadedScene::closest(const rays::Ray& ray) const {
     if (!hit) {
         return std::nullopt;
     }
-    const Vec3d position = Vec3d(ray.origin) + static_cast<double>(hit->t) * Vec3d(ray.direction);
-    const std::uint32_t object = base::index(hit->object);
-    return at(object, hit->patch, scene_.objects[object].surface->locate(hit->patch, position), hit->back);
+    return at(ray, *hit);
+}
+
+SidePoint ShadedScene::at(const rays::Ray& ray, const rays::Hit& hit) const {
+    const Vec3d position = Vec3d(ray.origin) + static_cast<double>(hit.t) * Vec3d(ray.direction);
+    const std::uint32_t object = base::index(hit.object);
+    if (!planes_[object].empty()) {
+        const Plane& plane = planes_[object][hit.patch];
+        SidePoint side;
+        side.object = object;
+        side.patch = hit.patch;
+        side.back = hit.back;
+        side.position = position - (glm::dot(plane.normal, position) - plane.offset) * plane.normal;
+        side.normal = hit.back ? -plane.normal : plane.normal;
+        side.reflectance = scene_.materials[scene_.objects[object].material].reflectance;
+        return side;
+    }
+    return at(object, hit.patch, scene_.objects[object].surface->locate(hit.patch, position), hit.back);
 }
 
 SidePoint ShadedScene::sampleEmitter(base::RandomStream& random) const {

@@ -39,8 +39,10 @@ class ShadedScene {
     const scene::Scene& scene() const { return scene_; }
     const rays::RayScene& rays() const { return rays_; }
 
-    /// Nearest point along a ray.
+    /// Nearest point along a ray, as at() gives it.
     std::optional<SidePoint> closest(const rays::Ray& ray) const;
+    /// The point that a ray met. Where the surface does not emit, `measure` may be left out.
+    SidePoint at(const rays::Ray& ray, const rays::Hit& hit) const;
 
     /// Side point at the parameters of a patch.
     SidePoint at(std::uint32_t object, std::uint32_t patch, const Vec2d& uv, bool back) const;
@@ -60,9 +62,18 @@ class ShadedScene {
         double cumulative = 0.0;
     };
 
+    /// Plane of a flat patch, with the normal of its front: dot(normal, x) = offset.
+    struct Plane {
+        Vec3d normal{};
+        double offset = 0.0;
+    };
+
     const scene::Scene& scene_;
     const rays::RayScene& rays_;
     scene::TextureSet textures_;
+    /// By object and patch, for objects of flat patches whose material is the same all over and does not
+    /// emit: what meets them needs no parameters. Empty for others.
+    std::vector<std::vector<Plane>> planes_;
     std::vector<Emitter> emitters_;
     /// Power by object and patch; empty for objects that do not emit.
     std::vector<std::vector<double>> power_;
