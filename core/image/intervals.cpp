@@ -1,0 +1,202 @@
+#include "core/image/intervals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/photometry.h"
+#include "core/image/sensors.h"
+#include "core/transport/kernel_bounds.h"
+
+namespace fluxwalk::image {
+
+namespace {
+
+using base::NodeId;
+using base::Vec3d;
+using hierarchy::Hierarchy;
+using hierarchy::NodeKind;
+using solve::GatheredSource;
+
+/// Two-sided 99 % of a normal distribution.
+constexpr double kDeviations = 2.5758;
+/// Factors on the parts, fixed together.
+constexpr double kShadows = 1.0;
+constexpr double kRange = 1.0;
+constexpr double kKernel = 1.0;
+constexpr double kSolution = 1.0;
+/// Single rounding of what is summed, relative to the value.
+constexpr double kRounding = 1e-5;
+constexpr double kStrictDeviations = 3.0;
+
+double luminanceOf(const base::Rgb& c) {
+    return base::luminance(Vec3d(c));
+}
+
+// The patch that an element belongs to; clusters and lights are their own.
+NodeId patchOf(const Hierarchy& h, NodeId id) {
+    while (h.kind(id) == NodeKind::element && h.parent(id) != NodeId::none &&
+           h.kind(h.parent(id)) == NodeKind::element) {
+        id = h.parent(id);
+    }
+    return id;
+}
+
+class Intervals {
+  public:
+    Intervals(const solve::Problem& problem, const solve::SolutionErrors& errors)
+        : problem_(problem), h_(problem.hierarchy), errors_(errors) {}
+
+    ErrorParts partsOf(const std::vector<GatheredSource>& sources) const {
+        double shadows = 0.0;
+        double range = 0.0;
+        double kernel = 0.0;
+        double reflected = 0.0;
+        std::vector<std::pair<NodeId, double>> byPatch;
+        for (const GatheredSource& s : sources) {
+            const hierarchy::Light& light = h_.light(s.source);
+            const double radiosity = luminanceOf(light.radiosity);
+            shadows += radiosity * radiosity * s.variance;
+            if (h_.kind(s.source) == NodeKind::light || h_.kind(s.source) == NodeKind::sky) {
+                continue;
+            }
+            if (h_.kind(s.source) == NodeKind::element) {
+                // A linear radiosity deviates by its half range over the root of 3 at most.
+                const double uneven = s.transfer * s.spread * static_cast<double>(light.range());
+                range += uneven * uneven / 3.0;
+            }
+            if (s.isSampled) {
+                const hierarchy::Shape& shape = h_.shape(s.source);
+                const double turn = std::min(1.0, static_cast<double>(shape.halfAngle));
+                const double off = radiosity * s.transfer * s.spread * turn * turn;
+                kernel += off * off;
+            }
+            reflected += luminanceOf(solve::reflectedBy(problem_, s.source)) * s.transfer;
+            const double error = luminanceOf(light.reflectance) * s.transfer *
+                                 static_cast<double>(errors_.ofNode[base::index(s.source)]);
+            byPatch.emplace_back(patchOf(h_, s.source), error);
+        }
+        std::sort(byPatch.begin(), byPatch.end());
+        double solution = errors_.common * errors_.common * reflected * reflected;
+        for (std::size_t i = 0; i < byPatch.size();) {
+            const NodeId patch = byPatch[i].first;
+            double sum = 0.0;
+            for (; i < byPatch.size() && byPatch[i].first == patch; ++i) {
+                sum += byPatch[i].second;
+            }
+            solution += sum * sum;
+        }
+        return {std::sqrt(shadows), std::sqrt(range), std::sqrt(kernel), std::sqrt(solution)};
+    }
+
+    // Likely interval around the value.
+    void setLikely(Measurement& m) const {
+        const double s = kShadows * m.parts.shadows;
+        const double r = kRange * m.parts.range;
+        const double k = kKernel * m.parts.kernel;
+        const double e = kSolution * m.parts.solution;
+        const double half =
+            kDeviations * std::sqrt(s * s + r * r + k * k + e * e) + kRounding * m.illuminance;
+        m.low = std::max(0.0, m.illuminance - half);
+        m.high = m.illuminance + half;
+    }
+
+    // `leaf`: where the sensor sits, NodeId::none in space.
+    void setStrict(Measurement& m, const std::vector<GatheredSource>& sources, NodeId leaf) const {
+        struct Share {
+            double brightness = 0.0;
+            double factor = 0.0;
+        };
+        std::vector<Share> shares;
+        double low = 0.0;
+        double fromLights = 0.0;
+        for (const GatheredSource& s : sources) {
+            const NodeKind kind = h_.kind(s.source);
+            if (kind == NodeKind::light) {
+                fromLights += base::luminance(s.irradiance);
+                continue;
+            }
+            const hierarchy::Light& light = h_.light(s.source);
+            const double radiosity = luminanceOf(light.radiosity);
+            if (kind == NodeKind::sky) {
+                shares.push_back({radiosity, s.factor});
+                continue;
+            }
+            const double within =
+                rangeOf(light) +
+                kStrictDeviations * luminanceOf(light.reflectance) *
+                    static_cast<double>(errors_.ofNode[base::index(s.source)]) +
+                kStrictDeviations * errors_.common * luminanceOf(solve::reflectedBy(problem_, s.source));
+            const transport::FactorBounds factor = boundFactor(s, leaf);
+            shares.push_back({radiosity + within, factor.upper});
+            if (s.isOpen) {
+                low += factor.lower * std::max(0.0, radiosity - within);
+            }
+        }
+        // Factors of what is seen sum to 1 at most: the brightest first.
+        std::sort(shares.begin(), shares.end(),
+                  [](const Share& a, const Share& b) { return a.brightness > b.brightness; });
+        double high = fromLights;
+        double left = 1.0;
+        for (const Share& share : shares) {
+            const double part = std::min(left, share.factor);
+            high += part * share.brightness;
+            left -= part;
+        }
+        m.low = std::min(low + fromLights, m.illuminance);
+        m.high = std::max(high, m.illuminance);
+    }
+
+  private:
+    // Half the range of a luminance at most: the channels' mean may have less than it.
+    static double rangeOf(const hierarchy::Light& light) {
+        const double mean = static_cast<double>(base::channelMean(light.radiosity));
+        const double scale = mean > 0.0 ? std::max(1.0, luminanceOf(light.radiosity) / mean) : 1.0;
+        return scale * static_cast<double>(light.range());
+    }
+
+    transport::FactorBounds boundFactor(const GatheredSource& s, NodeId leaf) const {
+        if (!s.isSampled) {
+            return {s.factor, s.factor};
+        }
+        if (h_.kind(s.source) == NodeKind::element && leaf != NodeId::none) {
+            return transport::boundPointFactor(h_, leaf, transport::makeSourceParts(h_, s.source));
+        }
+        return {0.0, 1.0};
+    }
+
+    const solve::Problem& problem_;
+    const Hierarchy& h_;
+    const solve::SolutionErrors& errors_;
+};
+
+}  // namespace
+
+std::vector<Measurement> measureIntervals(const solve::Solver& solver, std::span<const scene::Sensor> sensors,
+                                          IntervalKind kind) {
+    const solve::Problem& problem = solver.problem();
+    const solve::SolutionErrors errors = solve::estimateSolutionErrors(problem);
+    const Intervals intervals(problem, errors);
+    std::vector<Measurement> measured(sensors.size());
+    problem.executor.forRange(sensors.size(), 2, [&](std::size_t begin, std::size_t end) {
+        std::vector<GatheredSource> sources;
+        for (std::size_t i = begin; i < end; ++i) {
+            Measurement& m = measured[i];
+            sources.clear();
+            const auto point = findSurfacePoint(problem, sensors[i]);
+            m.irradiance =
+                point ? solve::gatherAtPoint(problem, *point, nullptr, &sources)
+                      : solve::gatherInSpace(problem, sensors[i].position, sensors[i].normal, &sources);
+            m.illuminance = luminanceOf(m.irradiance);
+            m.place = point ? SensorPlace::surface : SensorPlace::space;
+            m.parts = intervals.partsOf(sources);
+            if (kind == IntervalKind::likely) {
+                intervals.setLikely(m);
+            } else {
+                intervals.setStrict(m, sources, point ? point->leaf : NodeId::none);
+            }
+        }
+    });
+    return measured;
+}
+
+}  // namespace fluxwalk::image
