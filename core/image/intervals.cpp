@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/base/random.h"
 #include "core/image/sensors.h"
+#include "core/transport/element_sampler.h"
 #include "core/transport/kernel_bounds.h"
 
 namespace fluxwalk::image {
@@ -21,9 +23,13 @@ using solve::GatheredSource;
 constexpr double kDeviations = 2.5758;
 /// Factors on the parts, fixed together.
 constexpr double kShadows = 1.0;
-constexpr double kRange = 1.0;
+constexpr double kRange = 1.5;
 constexpr double kKernel = 1.0;
-constexpr double kSolution = 1.0;
+constexpr double kSolution = 1.25;
+constexpr double kGaps = 1.0;
+/// Sensors whose sources fill less than this part of their hemisphere look for gaps, by so many rays.
+constexpr double kFilled = 0.97;
+constexpr unsigned kGapRays = 64;
 /// Single rounding of what is summed, relative to the value.
 constexpr double kRounding = 1e-5;
 constexpr double kStrictDeviations = 3.0;
@@ -46,16 +52,20 @@ class Intervals {
     Intervals(const solve::Problem& problem, const solve::SolutionErrors& errors)
         : problem_(problem), h_(problem.hierarchy), errors_(errors) {}
 
-    ErrorParts partsOf(const std::vector<GatheredSource>& sources) const {
+    ErrorParts partsOf(const scene::Sensor& at, const std::vector<GatheredSource>& sources) const {
         double shadows = 0.0;
         double range = 0.0;
         double kernel = 0.0;
         double reflected = 0.0;
+        double seen = 0.0;
+        double received = 0.0;
         std::vector<std::pair<NodeId, double>> byPatch;
         for (const GatheredSource& s : sources) {
             const hierarchy::Light& light = h_.light(s.source);
             const double radiosity = luminanceOf(light.radiosity);
             shadows += radiosity * radiosity * s.variance;
+            seen += s.transfer;
+            received += base::luminance(s.irradiance);
             if (h_.kind(s.source) == NodeKind::light || h_.kind(s.source) == NodeKind::sky) {
                 continue;
             }
@@ -76,7 +86,7 @@ class Intervals {
             byPatch.emplace_back(patchOf(h_, s.source), error);
         }
         std::sort(byPatch.begin(), byPatch.end());
-        double solution = errors_.common * errors_.common * reflected * reflected;
+        double solution = errors_.defectError * errors_.defectError * reflected * reflected;
         for (std::size_t i = 0; i < byPatch.size();) {
             const NodeId patch = byPatch[i].first;
             double sum = 0.0;
@@ -85,7 +95,13 @@ class Intervals {
             }
             solution += sum * sum;
         }
-        return {std::sqrt(shadows), std::sqrt(range), std::sqrt(kernel), std::sqrt(solution)};
+        const double hidden = seen < kFilled ? lookForGaps(at) : 0.0;
+        return {std::sqrt(shadows),
+                std::sqrt(range),
+                std::sqrt(kernel),
+                std::sqrt(solution),
+                hidden > 0.0 ? hidden * received / std::max(seen, 1.0 / kGapRays) : 0.0,
+                errors_.defect * reflected};
     }
 
     // Likely interval around the value.
@@ -94,10 +110,11 @@ class Intervals {
         const double r = kRange * m.parts.range;
         const double k = kKernel * m.parts.kernel;
         const double e = kSolution * m.parts.solution;
+        const double g = kGaps * m.parts.gaps;
         const double half =
-            kDeviations * std::sqrt(s * s + r * r + k * k + e * e) + kRounding * m.illuminance;
-        m.low = std::max(0.0, m.illuminance - half);
-        m.high = m.illuminance + half;
+            kDeviations * std::sqrt(s * s + r * r + k * k + e * e + g * g) + kRounding * m.illuminance;
+        m.low = std::max(0.0, m.illuminance - half + std::min(0.0, m.parts.defect));
+        m.high = m.illuminance + half + std::max(0.0, m.parts.defect);
     }
 
     // `leaf`: where the sensor sits, NodeId::none in space.
@@ -121,11 +138,11 @@ class Intervals {
                 shares.push_back({radiosity, s.factor});
                 continue;
             }
-            const double within =
-                rangeOf(light) +
-                kStrictDeviations * luminanceOf(light.reflectance) *
-                    static_cast<double>(errors_.ofNode[base::index(s.source)]) +
-                kStrictDeviations * errors_.common * luminanceOf(solve::reflectedBy(problem_, s.source));
+            const double within = rangeOf(light) +
+                                  kStrictDeviations * luminanceOf(light.reflectance) *
+                                      static_cast<double>(errors_.ofNode[base::index(s.source)]) +
+                                  (std::abs(errors_.defect) + kStrictDeviations * errors_.defectError) *
+                                      luminanceOf(solve::reflectedBy(problem_, s.source));
             const transport::FactorBounds factor = boundFactor(s, leaf);
             shares.push_back({radiosity + within, factor.upper});
             if (s.isOpen) {
@@ -147,6 +164,48 @@ class Intervals {
     }
 
   private:
+    // Part of the hemisphere in which a sensor sees parts of surfaces that count as dark.
+    double lookForGaps(const scene::Sensor& at) const {
+        unsigned hidden = 0;
+        for (unsigned i = 0; i < kGapRays; ++i) {
+            // By projected solid angle.
+            const base::Vec2d p = base::r2Point(i, base::Vec2d(0.5));
+            const double sine = std::sqrt(p.x);
+            const double turn = 2.0 * base::kPi * p.y;
+            const Vec3d across = glm::normalize(
+                glm::cross(at.normal, std::abs(at.normal.y) < 0.7 ? Vec3d(0, 1, 0) : Vec3d(0, 0, 1)));
+            const Vec3d along = glm::cross(at.normal, across);
+            const Vec3d direction =
+                sine * (std::cos(turn) * across + std::sin(turn) * along) + std::sqrt(1.0 - p.x) * at.normal;
+            const rays::Ray ray = problem_.rays.halfLine(at.position, at.normal, direction);
+            const auto hit = problem_.rays.closest(ray);
+            if (hit && isHidden(*hit, Vec3d(ray.origin) + static_cast<double>(hit->t) * direction)) {
+                ++hidden;
+            }
+        }
+        return static_cast<double>(hidden) / kGapRays;
+    }
+
+    bool isHidden(const rays::Hit& hit, const Vec3d& where) const {
+        const std::uint32_t object = base::index(hit.object);
+        const base::Vec2d uv = problem_.scene->objects[object].surface->locate(hit.patch, where);
+        const auto leaf = solve::findLeaf(problem_, object, hit.patch, hit.back, uv);
+        if (!leaf || h_.shape(*leaf).exposedCells == 0xffff) {
+            return false;
+        }
+        const transport::ElementSampler sampler(h_, *leaf);
+        unsigned nearest = 0;
+        double least = INFINITY;
+        for (unsigned cell = 0; cell < 16; ++cell) {
+            const double distance = glm::distance(sampler.inCell(cell).position, where);
+            if (distance < least) {
+                least = distance;
+                nearest = cell;
+            }
+        }
+        return (h_.shape(*leaf).exposedCells >> nearest & 1u) == 0;
+    }
+
     // Half the range of a luminance at most: the channels' mean may have less than it.
     static double rangeOf(const hierarchy::Light& light) {
         const double mean = static_cast<double>(base::channelMean(light.radiosity));
@@ -188,7 +247,7 @@ std::vector<Measurement> measureIntervals(const solve::Solver& solver, std::span
                       : solve::gatherInSpace(problem, sensors[i].position, sensors[i].normal, &sources);
             m.illuminance = luminanceOf(m.irradiance);
             m.place = point ? SensorPlace::surface : SensorPlace::space;
-            m.parts = intervals.partsOf(sources);
+            m.parts = intervals.partsOf(sensors[i], sources);
             if (kind == IntervalKind::likely) {
                 intervals.setLikely(m);
             } else {

@@ -38,8 +38,14 @@ struct ErrorParts {
     /// Form factors of curved sources by quadrature.
     double kernel = 0.0;
     /// The solution's own error (solve/solution_errors.h) as it reaches the sensor: of each patch as one, of
-    /// patches as independent, and what all reflected light has in common.
+    /// patches as independent, and the error of what all reflected light lacks.
     double solution = 0.0;
+    /// Parts of surfaces that lie in narrow gaps count as dark in the solution. Where a sensor sees such, as
+    /// in the gap itself, they may be as bright as what else it sees.
+    double gaps = 0.0;
+    /// No deviation: what the sensor lacks if all reflected light lacks what the solution's probes found;
+    /// negative where there is too much. The interval reaches so much farther on that side.
+    double defect = 0.0;
 };
 
 /// Where a sensor is.

@@ -31,7 +31,8 @@ std::optional<solve::GatherPoint> findSurfacePoint(const solve::Problem& problem
         return std::nullopt;
     }
     const auto leaf = solve::findLeaf(problem, base::index(hit->object), hit->patch, back, uv);
-    if (!leaf) {
+    // What lies wholly in a narrow gap has no links, though some light may get there.
+    if (!leaf || problem.hierarchy.shape(*leaf).exposedArea() <= 0.0f) {
         return std::nullopt;
     }
     return solve::GatherPoint{*leaf, p.position, normal};

@@ -25,7 +25,7 @@ float errorOf(const Problem& problem, const hierarchy::Link& link) {
 
 }  // namespace
 
-std::vector<float> computeLinkErrors(const Problem& problem) {
+std::vector<float> computeLinkErrors(Problem& problem) {
     const hierarchy::Hierarchy& h = problem.hierarchy;
     const std::vector<hierarchy::Link>& links = problem.links.links;
     std::vector<float> errors(links.size(), 0.0f);

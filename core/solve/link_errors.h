@@ -10,6 +10,6 @@ struct Problem;
 /// for other nodes. Each link's is what the oracle compares with the threshold (which spreads power over the
 /// area of the whole scene, so that small elements may be more wrong); those of several links are taken as
 /// independent. An element's exchange with itself does not count.
-std::vector<float> computeLinkErrors(const Problem& problem);
+std::vector<float> computeLinkErrors(Problem& problem);
 
 }  // namespace fluxwalk::solve

@@ -297,7 +297,9 @@ class PointGather {
                 const double free = blocked[i] != 0 ? 0.0 : 1.0;
                 variance.add(weights[i] * used / all * (free - result.mean));
             }
-            result.variance = std::max(variance.ofMean(), unseenVariance(used));
+            // No more than that of one ray where few points make up nearly all of the kernel.
+            result.variance = std::max(std::min(variance.ofMean(), result.mean * (1.0 - result.mean)),
+                                       unseenVariance(used));
         }
         return result;
     }

@@ -68,9 +68,11 @@ void cover(const std::string& name, const Arguments& arguments, std::ofstream& t
         squares += off * off;
         sum += truth[i].luminance;
         table << fmt::format(
-            "{},{},{:.7g},{:.7g},{:.4g},{:.4g},{:.4g},{:.4g},{:.7g},{:.4g},{:.4g},{:.4g},{:.4g}\n", name, i,
-            m.illuminance, m.low, m.high, m.parts.shadows, m.parts.range, m.parts.kernel, truth[i].luminance,
-            truth[i].luminanceError, m.parts.solution, sensors[i].position.x, sensors[i].position.y);
+            "{},{},{:.7g},{:.7g},{:.4g},{:.4g},{:.4g},{:.4g},{:.7g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}"
+            "\n",
+            name, i, m.illuminance, m.low, m.high, m.parts.shadows, m.parts.range, m.parts.kernel,
+            truth[i].luminance, truth[i].luminanceError, m.parts.solution, sensors[i].position.x,
+            sensors[i].position.y, m.parts.gaps, m.parts.defect);
     }
     std::sort(widths.begin(), widths.end());
     const auto n = static_cast<double>(sensors.size());
@@ -97,7 +99,7 @@ int main(int argc, char** argv) {
     app.add_option("--table", arguments.table, "CSV of all sensors.");
     CLI11_PARSE(app, argc, argv);
     std::ofstream table(arguments.table);
-    table << "scene,sensor,lux,low,high,shadows,range,kernel,reference,se,solution,x,y\n";
+    table << "scene,sensor,lux,low,high,shadows,range,kernel,reference,se,solution,x,y,gaps,defect\n";
     for (const std::string& name : arguments.scenes) {
         fluxwalk::cover(name, arguments, table);
     }
