@@ -246,7 +246,9 @@ std::vector<Measurement> measureIntervals(const solve::Solver& solver, std::span
                 point ? solve::gatherAtPoint(problem, *point, nullptr, &sources)
                       : solve::gatherInSpace(problem, sensors[i].position, sensors[i].normal, &sources);
             m.illuminance = luminanceOf(m.irradiance);
-            m.place = point ? SensorPlace::surface : SensorPlace::space;
+            m.place = isInSolid(problem.rays, problem.hierarchy.reached(), sensors[i]) ? SensorPlace::solid
+                      : point                                                          ? SensorPlace::surface
+                                                                                       : SensorPlace::space;
             m.parts = intervals.partsOf(sensors[i], sources);
             if (kind == IntervalKind::likely) {
                 intervals.setLikely(m);

@@ -66,6 +66,7 @@ class IrradianceTracer {
     /// Paths of each sensor that was not stopped.
     std::uint64_t paths() const { return paths_; }
     std::uint64_t rays() const { return rays_; }
+    std::size_t sensorCount() const { return sensors_.size(); }
 
   private:
     /// Of the paths with even and with odd numbers.

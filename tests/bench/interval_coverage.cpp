@@ -56,11 +56,16 @@ void cover(const std::string& name, const Arguments& arguments, std::ofstream& t
     tracer.add(arguments.paths);
     const std::vector<reference::Estimate> truth = tracer.irradiance();
     std::size_t held = 0;
+    std::size_t count = 0;
     std::vector<double> widths;
     double squares = 0.0;
     double sum = 0.0;
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         const image::Measurement& m = measured[i];
+        if (m.place == image::SensorPlace::solid) {
+            continue;
+        }
+        ++count;
         const double slack = 2.5758 * truth[i].luminanceError;
         held += truth[i].luminance + slack >= m.low && truth[i].luminance - slack <= m.high ? 1u : 0u;
         widths.push_back((m.high - m.low) / std::max(m.illuminance, 1e-9));
@@ -75,7 +80,7 @@ void cover(const std::string& name, const Arguments& arguments, std::ofstream& t
             sensors[i].position.y, m.parts.gaps, m.parts.defect);
     }
     std::sort(widths.begin(), widths.end());
-    const auto n = static_cast<double>(sensors.size());
+    const auto n = static_cast<double>(count);
     fmt::print(
         "{:16} held {:6.2f} %, width median {:6.2f} %, 95th {:7.2f} %, RMS {:5.2f} % of mean; solved {:.1f} "
         "s, "
