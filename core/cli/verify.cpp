@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/base/photometry.h"
+#include "core/base/random.h"
 #include "core/cli/core_commands.h"
 #include "core/cli/output.h"
 #include "core/cli/reference_run.h"
@@ -12,9 +14,12 @@
 #include "core/cli/sensor_arguments.h"
 #include "core/cli/sensor_files.h"
 #include "core/cli/values.h"
+#include "core/cli/verify_picture.h"
+#include "core/cli/verify_report.h"
+#include "core/image/chart.h"
 #include "core/image/sensors.h"
+#include "core/io/image_write.h"
 #include "core/io/sensors_csv.h"
-#include "core/reference/agreement.h"
 #include "core/reference/random_sensors.h"
 #include "core/solve/state.h"
 
@@ -23,6 +28,7 @@ namespace fluxwalk::cli {
 namespace {
 
 constexpr std::uint64_t kDefaultPaths = 1024;
+constexpr std::uint64_t kDefaultPicturePaths = 64;
 constexpr unsigned kDefaultPoints = 200;
 constexpr unsigned kMostPoints = 1'000'000;
 
@@ -32,17 +38,11 @@ struct VerifyArguments {
     OutputArguments output;
     SensorArguments sensors;
     TraceLimits limits;
+    ViewArguments view;
     unsigned points = 0;
     bool isComparing = false;
     std::filesystem::path measured;  ///< of --compare, empty to solve
     std::filesystem::path values;
-};
-
-// What is compared with the reference.
-struct Subject {
-    std::vector<scene::Sensor> sensors;
-    std::vector<reference::Claim> claims;  ///< empty where nothing is compared
-    std::string name;
 };
 
 // Points drawn by area over what light reaches, those within solids left out.
@@ -111,58 +111,14 @@ Subject readSubject(const std::filesystem::path& file) {
     return subject;
 }
 
-// The object at a sensor; "in space" where it sits on none.
-std::string nameOfPlace(const scene::Scene& scene, const rays::RayScene& rays, const scene::Sensor& sensor) {
-    const double reach = image::kCaptureReach * scene.bounds().diagonal();
-    const auto hit = rays.closest({base::Vec3(sensor.position + reach * sensor.normal), 0.0f,
-                                   base::Vec3(-sensor.normal), static_cast<float>(2.0 * reach)});
-    return hit ? "on " + base::toOneLine(scene.objects[base::index(hit->object)].name) : "in space";
-}
-
-std::string describeAgreement(const Subject& subject, const std::vector<reference::Estimate>& truth,
-                              const scene::Scene& scene, const rays::RayScene& rays) {
-    const reference::Agreement a = reference::compare(subject.claims, truth);
-    if (a.count == 0) {
-        return "nothing to compare: no sensor has a reference yet\n";
-    }
-    std::string text = fmt::format(
-        "{} against the reference at {} sensors, mean {:.4g} lx:\n"
-        "  RMS {:.2f} % of the mean (the reference's own {:.2f} % taken off), bias {:+.2f} +- {:.2f} %\n",
-        subject.name, a.count, a.mean, 100.0 * a.rms, 100.0 * a.noise, 100.0 * a.bias, 100.0 * a.biasError);
-    if (a.medianWidth > 0.0) {
-        text += fmt::format(
-            "  intervals: {} of {} hold the reference ({:.1f} %), {:.1f} % wide (median)\n", a.held, a.count,
-            100.0 * static_cast<double>(a.held) / static_cast<double>(a.count), 100.0 * a.medianWidth);
-    }
-    text += "  worst:\n";
-    for (const std::size_t i : a.worst) {
-        const scene::Sensor& s = subject.sensors[i];
-        text += fmt::format("    {:.4g} lx, reference {:.4g} +- {:.2g} lx, at {:.3f},{:.3f},{:.3f} {}\n",
-                            subject.claims[i].value, truth[i].luminance, truth[i].luminanceError,
-                            s.position.x, s.position.y, s.position.z, nameOfPlace(scene, rays, s));
-    }
-    return text;
-}
-
-std::string describeReference(const reference::IrradianceTracer& tracer, double seconds) {
-    const reference::NoiseCheck noise = tracer.checkNoise();
-    return fmt::format(
-        "reference: {} paths at each of {} sensors, {:.3g} rays, {:.2f} million a second; standard error "
-        "{:.2f} % of "
-        "the mean\n"
-        "  its noise: two halves of the paths differ by {:.2f} times what their standard errors say (chi2; 1 "
-        "+- "
-        "{:.2f} is expected)\n",
-        tracer.paths(), tracer.sensorCount(), static_cast<double>(tracer.rays()),
-        1e-6 * static_cast<double>(tracer.rays()) / std::max(seconds, 1e-9), 100.0 * precisionOf(tracer),
-        noise.ratio, noise.deviation);
+// Other random numbers than the solver's.
+std::uint64_t referenceSeed(const VerifyArguments& arguments) {
+    return base::combine(arguments.solver.options.seed, 0x7ef);
 }
 
 ExitCode traceAndTell(const VerifyArguments& arguments, const Subject& subject, const scene::Scene& scene,
                       const rays::RayScene& rays, const base::Executor& executor) {
-    // Other random numbers than the solver's.
-    const std::uint64_t seed = base::combine(arguments.solver.options.seed, 0x7ef);
-    reference::IrradianceTracer tracer(scene, rays, executor, subject.sensors, seed);
+    reference::IrradianceTracer tracer(scene, rays, executor, subject.sensors, referenceSeed(arguments));
     double seconds = 0.0;
     bool isStopped = false;
     {
@@ -173,19 +129,75 @@ ExitCode traceAndTell(const VerifyArguments& arguments, const Subject& subject, 
     if (!arguments.values.empty()) {
         writeReference(arguments.values, subject.sensors, truth, tracer);
     }
-    if (!arguments.output.quiet) {
-        std::string text = describeReference(tracer, seconds);
-        if (!subject.claims.empty()) {
-            text += describeAgreement(subject, truth, scene, rays);
-        }
-        printText(text);
-    }
+    deliver(VerifyReport(subject, tracer, seconds, scene, rays), arguments.output);
     return isStopped ? ExitCode::interrupted : ExitCode::success;
 }
 
+// Relative differences of a solution from the reference at what a camera sees, as a picture.
+ExitCode drawDifferences(const VerifyArguments& arguments) {
+    scene::Camera camera;
+    const Solved solved =
+        runSolver("verify", arguments.scene, arguments.solver, arguments.output,
+                  [&](const scene::Scene& scene) { camera = chooseView(arguments.view, scene); });
+    const solve::Problem& problem = solved.solver->problem();
+    SeenPoints seen = lookThrough(camera, arguments.view, problem.rays, *problem.scene);
+    const std::vector<base::Rgb> values = image::measure(*solved.solver, seen.sensors);
+    const std::shared_ptr<const scene::Scene> lit =
+        scene::relightScene(problem.scene, solved.solver->options().lighting);
+    reference::IrradianceTracer tracer(*lit, problem.rays, problem.executor, seen.sensors,
+                                       referenceSeed(arguments));
+    double seconds = 0.0;
+    bool isStopped = false;
+    {
+        const solve::StageTimer timer(seconds);
+        isStopped = traceUntil(tracer, arguments.limits, kDefaultPicturePaths, arguments.output.quiet);
+    }
+    Subject subject{std::move(seen.sensors), {}, "the solution"};
+    for (const base::Rgb& value : values) {
+        const double lux = base::luminance(base::Vec3d(value));
+        subject.claims.push_back({lux, lux, lux});
+    }
+    const VerifyReport report(subject, tracer, seconds, *lit, problem.rays);
+    const std::vector<double> differences = report.relativeDifferences();
+    std::vector<double> pixels(std::size_t{arguments.view.width} * arguments.view.height, NAN);
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        pixels[seen.pixels[i]] = differences[i];
+    }
+    const image::Picture picture = image::drawDifference(arguments.view.width, arguments.view.height, pixels,
+                                                         image::chooseDifferenceRange(differences));
+    writeOutput([&] { io::writePng(arguments.values, picture.width, picture.height, picture.pixels); });
+    deliver(report, arguments.output);
+    return isStopped ? ExitCode::interrupted : solved.exitCode();
+}
+
+void requireSense(const VerifyArguments& arguments) {
+    const bool isPicture = arguments.values.extension() == ".png";
+    if (arguments.view.isAsked() != isPicture) {
+        throw base::UsageError(
+            isPicture ? "--output: a picture of differences needs --camera, or --eye and --target"
+                      : "--camera, --eye: -o must name the picture of differences, a .png");
+    }
+    if (isPicture && (arguments.isComparing || arguments.points > 0 || arguments.sensors.grid ||
+                      !arguments.sensors.sensors.empty())) {
+        throw base::UsageError(
+            "a picture of differences has its own points: no --compare, --sensors, --grid or "
+            "--points with it");
+    }
+    if (arguments.isComparing && !arguments.measured.empty() &&
+        (arguments.points > 0 || arguments.sensors.grid)) {
+        throw base::UsageError("--compare FILE brings its own sensors: no --grid or --points with it");
+    }
+    for (const std::filesystem::path& file : {arguments.values, arguments.output.report}) {
+        if (!file.empty()) {
+            requireWritable(file);
+        }
+    }
+}
+
 ExitCode runVerify(const VerifyArguments& arguments) {
-    if (!arguments.values.empty()) {
-        requireWritable(arguments.values);
+    requireSense(arguments);
+    if (arguments.view.isAsked()) {
+        return drawDifferences(arguments);
     }
     const bool hasSource = !arguments.sensors.sensors.empty() || arguments.sensors.grid;
     const std::unique_ptr<const SensorSource> source =
@@ -258,6 +270,7 @@ Command verifyCommand() {
                     ->excludes("--grid")
                     ->group("Sensors");
                 addTraceOptions(app, arguments->limits);
+                addViewOptions(app, arguments->view);
                 app.add_option_function<std::vector<std::string>>(
                        "--compare",
                        [arguments](const std::vector<std::string>& files) {
@@ -276,7 +289,7 @@ Command verifyCommand() {
                        "-o,--output", arguments->values,
                        "Rows x,y,z,nx,ny,nz with E_r,E_g,E_b, lux and their standard errors se_r, se_g, "
                        "se_b, se_lux; a name that ends in .json gets JSON.")
-                    ->type_name("OUT.csv|json")
+                    ->type_name("OUT.csv|json|png")
                     ->group("Output");
                 addOutputOptions(app, arguments->output);
                 return [arguments] { return runVerify(*arguments); };

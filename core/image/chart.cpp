@@ -33,7 +33,7 @@ constexpr std::array<Letter, 17> kLetters{{
     {'-', {0x08, 0x08, 0x08, 0x08, 0x08}},
     {'+', {0x08, 0x08, 0x3e, 0x08, 0x08}},
     {'%', {0x23, 0x13, 0x08, 0x64, 0x62}},
-    {'l', {0x00, 0x41, 0x7f, 0x40, 0x00}},
+    {'l', {0x00, 0x00, 0x3f, 0x40, 0x40}},
     {'x', {0x44, 0x28, 0x10, 0x28, 0x44}},
     {'e', {0x38, 0x54, 0x54, 0x54, 0x18}},
 }};
@@ -163,6 +163,21 @@ Picture drawPlan(const Grid& grid, std::span<const Measurement> measured) {
         }
     }
     return picture;
+}
+
+double chooseDifferenceRange(std::span<const double> differences) {
+    std::vector<double> sizes;
+    for (const double d : differences) {
+        if (std::isfinite(d)) {
+            sizes.push_back(std::abs(d));
+        }
+    }
+    if (sizes.empty()) {
+        return 1.0;
+    }
+    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 98 / 100);
+    std::nth_element(sizes.begin(), at, sizes.end());
+    return *at > 0.0 ? roundUp(*at) : 0.01;
 }
 
 Picture drawDifference(std::uint32_t width, std::uint32_t height, std::span<const double> differences,

@@ -34,6 +34,9 @@ Picture drawPlan(const Grid& grid, std::span<const Measurement> measured);
 Picture drawDifference(std::uint32_t width, std::uint32_t height, std::span<const double> differences,
                        double range);
 
+/// A round range that 98 of 100 differences lie in.
+double chooseDifferenceRange(std::span<const double> differences);
+
 /// The next of 1, 2 and 5 times a power of ten that is not below a positive value.
 double roundUp(double value);
 
