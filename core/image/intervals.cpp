@@ -23,9 +23,9 @@ using solve::GatheredSource;
 constexpr double kDeviations = 2.5758;
 /// Factors on the parts, fixed together.
 constexpr double kShadows = 1.0;
-constexpr double kRange = 1.5;
+constexpr double kRange = 1.25;
 constexpr double kKernel = 1.0;
-constexpr double kSolution = 1.25;
+constexpr double kSolution = 1.0;
 constexpr double kGaps = 1.0;
 /// Sensors whose sources fill less than this part of their hemisphere look for gaps, by so many rays.
 constexpr double kFilled = 0.97;
