@@ -66,10 +66,10 @@ TEST_F(Grids, objectGetsOneSensorForEachCell) {
         EXPECT_NEAR(s.position.y, 0.0, 1e-6);
         EXPECT_NEAR(s.normal.y, 1.0, 1e-6);
     }
-    // Patches smaller than a cell share them.
+    // Faces hold few.
     const Grid coarse = image::makeObjectGrid(scene_, reached_, objectNamed("tall block"), 0.12);
-    EXPECT_GE(coarse.sensors.size(), 15u);
-    EXPECT_LE(coarse.sensors.size(), 45u);
+    EXPECT_GE(coarse.sensors.size(), 12u) << "0.24 m2, in whole rows on each face";
+    EXPECT_LE(coarse.sensors.size(), 20u);
 }
 
 TEST_F(Grids, refusesWhatIsAbsurd) {
