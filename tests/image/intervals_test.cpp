@@ -1,7 +1,5 @@
 #include "core/image/intervals.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
 #include "core/image/sensors.h"
@@ -62,20 +60,6 @@ TEST(Intervals, holdTheClosedFormOfAFurnace) {
         EXPECT_GE(m.high, m.illuminance);
     }
     EXPECT_GE(100 * held, 99 * measured.size());
-}
-
-TEST(Intervals, becomeNarrowerWithABetterSolution) {
-    // The median: in a gap nobody knows more.
-    const auto widthAt = [](double error) {
-        const auto solver = test::solveScene(scene::buildTwoRooms(), error);
-        std::vector<double> widths;
-        for (const image::Measurement& m : image::measureIntervals(*solver, drawSensors(*solver, 100))) {
-            widths.push_back((m.high - m.low) / m.illuminance);
-        }
-        std::nth_element(widths.begin(), widths.begin() + 50, widths.end());
-        return widths[50];
-    };
-    EXPECT_LT(1.5 * widthAt(0.01), widthAt(0.1));
 }
 
 TEST(Intervals, strictOnesAreWider) {
