@@ -67,7 +67,10 @@ void PathStream::castPaths(std::span<Vec3d> samples) {
             continue;
         }
         if (goOn(path, shaded_.at(onward_[i], *hits_[i]), samples)) {
-            paths_[kept++] = path;
+            if (kept != i) {
+                paths_[kept] = path;
+            }
+            ++kept;
         }
     }
     paths_.resize(kept, paths_.front());

@@ -75,6 +75,15 @@ ShadedScene::ShadedScene(const scene::Scene& scene, const rays::RayScene& rays)
             power_[i].push_back(power);
         }
     }
+    guide_.resize(emitters_.size());
+    std::uint32_t first = 0;
+    for (std::size_t part = 0; part < guide_.size(); ++part) {
+        const double before = cumulative * static_cast<double>(part) / static_cast<double>(guide_.size());
+        while (first + 1 < emitters_.size() && emitters_[first].cumulative <= before) {
+            ++first;
+        }
+        guide_[part] = first;
+    }
 }
 
 SidePoint ShadedScene::at(std::uint32_t objectIndex, std::uint32_t patch, const Vec2d& uv, bool back) const {
@@ -128,10 +137,13 @@ SidePoint ShadedScene::at(const rays::Ray& ray, const rays::Hit& hit) const {
 
 SidePoint ShadedScene::sampleEmitter(base::RandomStream& random) const {
     FLUXWALK_CHECK(hasEmissivePatches());
-    const double choice = random.next() * emitters_.back().cumulative;
-    const auto found = std::upper_bound(emitters_.begin(), emitters_.end(), choice,
-                                        [](double value, const Emitter& e) { return value < e.cumulative; });
-    const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
+    const double place = random.next();
+    const double choice = place * emitters_.back().cumulative;
+    std::size_t i = guide_[static_cast<std::size_t>(place * static_cast<double>(guide_.size()))];
+    while (i + 1 < emitters_.size() && choice >= emitters_[i].cumulative) {
+        ++i;
+    }
+    const Emitter& emitter = emitters_[i];
     const surface::Surface& surface = *scene_.objects[emitter.object].surface;
     const surface::PatchDomain domain = surface.domain(emitter.patch);
     return at(emitter.object, emitter.patch, domainPoint(domain, random.next2()), false);

@@ -75,6 +75,8 @@ class ShadedScene {
     /// emit: what meets them needs no parameters. Empty for others.
     std::vector<std::vector<Plane>> planes_;
     std::vector<Emitter> emitters_;
+    /// For each of as many equal parts of the power: the first emitter that has some of it.
+    std::vector<std::uint32_t> guide_;
     /// Power by object and patch; empty for objects that do not emit.
     std::vector<std::vector<double>> power_;
 };

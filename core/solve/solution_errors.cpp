@@ -72,8 +72,7 @@ Finding look(const Problem& problem, const Probe& probe, std::uint64_t key) {
     return found;
 }
 
-// Errors of inner nodes and clusters from their leaves', children after their parents in the order of ids
-// being split, so that walking back meets children first.
+// Errors of inner nodes and clusters, from those of their leaves.
 void pullErrors(const hierarchy::Hierarchy& h, std::vector<float>& errors) {
     std::vector<NodeId> order;
     order.reserve(h.nodeCount());
