@@ -71,7 +71,7 @@ ShadedScene::ShadedScene(const scene::Scene& scene, const rays::RayScene& rays)
             const double power =
                 sides * object.surface->area(patch, whole) * static_cast<double>(base::channelMean(emission));
             cumulative += power;
-            emitters_.push_back({i, patch, cumulative});
+            emitters_.push_back({i, patch, cumulative, addFlatEmitter(object, patch)});
             power_[i].push_back(power);
         }
     }
@@ -84,6 +84,25 @@ ShadedScene::ShadedScene(const scene::Scene& scene, const rays::RayScene& rays)
         }
         guide_[part] = first;
     }
+}
+
+// kNotFlat for what is curved, textured, or a quad whose area measure changes over it.
+std::uint32_t ShadedScene::addFlatEmitter(const scene::Object& object, std::uint32_t patch) {
+    const surface::Surface& surface = *object.surface;
+    if (!surface.isPlanar(patch) || isTextured(scene_.materials[object.material])) {
+        return kNotFlat;
+    }
+    const surface::SurfacePoint origin = surface.evaluate(patch, Vec2d(0.0));
+    const surface::SurfacePoint atU = surface.evaluate(patch, Vec2d(1.0, 0.0));
+    const surface::SurfacePoint atV = surface.evaluate(patch, Vec2d(0.0, 1.0));
+    constexpr double kSame = 1e-9;
+    if (std::abs(atU.jacobian - origin.jacobian) > kSame * origin.jacobian ||
+        std::abs(atV.jacobian - origin.jacobian) > kSame * origin.jacobian) {
+        return kNotFlat;
+    }
+    flatEmitters_.push_back({origin.position, atU.position - origin.position, atV.position - origin.position,
+                             origin.normal, origin.jacobian * domainArea(surface.domain(patch))});
+    return static_cast<std::uint32_t>(flatEmitters_.size() - 1);
 }
 
 SidePoint ShadedScene::at(std::uint32_t objectIndex, std::uint32_t patch, const Vec2d& uv, bool back) const {
@@ -144,9 +163,21 @@ SidePoint ShadedScene::sampleEmitter(base::RandomStream& random) const {
         ++i;
     }
     const Emitter& emitter = emitters_[i];
-    const surface::Surface& surface = *scene_.objects[emitter.object].surface;
-    const surface::PatchDomain domain = surface.domain(emitter.patch);
-    return at(emitter.object, emitter.patch, domainPoint(domain, random.next2()), false);
+    const scene::Object& object = scene_.objects[emitter.object];
+    const Vec2d uv = domainPoint(object.surface->domain(emitter.patch), random.next2());
+    if (emitter.flat == kNotFlat) {
+        return at(emitter.object, emitter.patch, uv, false);
+    }
+    const FlatEmitter& flat = flatEmitters_[emitter.flat];
+    const scene::Material& material = scene_.materials[object.material];
+    return {emitter.object,
+            emitter.patch,
+            false,
+            flat.origin + uv.x * flat.alongU + uv.y * flat.alongV,
+            flat.normal,
+            flat.measure,
+            material.reflectance,
+            material.emission};
 }
 
 double ShadedScene::emitterProbability(std::uint32_t object, std::uint32_t patch) const {
