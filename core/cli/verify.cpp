@@ -184,8 +184,9 @@ void requireSense(const VerifyArguments& arguments) {
             "--points with it");
     }
     if (arguments.isComparing && !arguments.measured.empty() &&
-        (arguments.points > 0 || arguments.sensors.grid)) {
-        throw base::UsageError("--compare FILE brings its own sensors: no --grid or --points with it");
+        (arguments.points > 0 || arguments.sensors.grid || !arguments.sensors.sensors.empty())) {
+        throw base::UsageError(
+            "--compare FILE brings its own sensors: no --sensors, --grid or --points with it");
     }
     for (const std::filesystem::path& file : {arguments.values, arguments.output.report}) {
         if (!file.empty()) {
@@ -282,7 +283,6 @@ Command verifyCommand() {
                        "intervals hold, the worst places. Without a file the scene is solved first.")
                     ->expected(0, 1)
                     ->type_name("[MEASURED.csv]")
-                    ->excludes("--sensors")
                     ->group("Reference");
                 addSolverOptions(app, arguments->solver);
                 app.add_option(

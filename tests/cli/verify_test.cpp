@@ -116,6 +116,10 @@ TEST_F(Verify, SolvesWhereNothingWasMeasured) {
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_NE(result.out.find("the solution against the reference at 30 sensors"), std::string::npos)
         << result.out;
+    const std::string sensors = write("in.csv", "x,y,z,nx,ny,nz\n0.1,0,0.1,0,1,0\n0.1,0.2,0.1,0,1,0\n");
+    const Result named = run({"verify", "cornell-box", "--sensors", sensors, "--paths", "512", "--compare"});
+    ASSERT_EQ(named.code, 0) << named.err;
+    EXPECT_NE(named.out.find("the reference at 2 sensors"), std::string::npos) << named.out;
 }
 
 // A wrong table is told from a right one.
@@ -203,6 +207,8 @@ TEST_F(Verify, BadInputGetsOneClearError) {
     expectFailure({"verify", "cornell-box", "--sensors", empty}, ExitCode::badInput, "holds no sensors");
     expectFailure({"verify", "cornell-box", "--sensors", zero}, ExitCode::badInput,
                   "line 2: the normal is zero");
+    expectFailure({"verify", "cornell-box", "--compare", plain, "--sensors", plain}, ExitCode::usage,
+                  "brings its own sensors");
     expectFailure({"verify", "cornell-box", "--compare", plain}, ExitCode::badInput, "has no column lux");
     expectFailure({"verify", "cornell-box", "--compare", shortRow}, ExitCode::badInput,
                   "line 2: has no value for lux");
