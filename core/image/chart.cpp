@@ -64,7 +64,7 @@ void drawText(Picture& picture, std::uint32_t x, std::uint32_t y, std::string_vi
         for (const Letter& letter : kLetters) {
             for (std::uint32_t i = 0; letter.character == c && i < 5; ++i) {
                 for (std::uint32_t j = 0; j < kLetterHeight; ++j) {
-                    if ((letter.columns[i] >> j & 1u) != 0) {
+                    if ((std::uint32_t{letter.columns[i]} >> j & 1u) != 0) {
                         set(picture, x + i, y + j, kInk);
                     }
                 }

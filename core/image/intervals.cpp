@@ -163,6 +163,24 @@ class Intervals {
         m.high = std::max(high, m.illuminance);
     }
 
+    // Whether a point of a leaf lies in a part of it that counts as dark.
+    bool isInHiddenCell(NodeId leaf, const Vec3d& where) const {
+        if (h_.shape(leaf).exposedCells == 0xffff) {
+            return false;
+        }
+        const transport::ElementSampler sampler(h_, leaf);
+        unsigned nearest = 0;
+        double least = INFINITY;
+        for (unsigned cell = 0; cell < 16; ++cell) {
+            const double distance = glm::distance(sampler.inCell(cell).position, where);
+            if (distance < least) {
+                least = distance;
+                nearest = cell;
+            }
+        }
+        return (std::uint32_t{h_.shape(leaf).exposedCells} >> nearest & 1u) == 0;
+    }
+
   private:
     // Part of the hemisphere in which a sensor sees parts of surfaces that count as dark.
     double lookForGaps(const scene::Sensor& at) const {
@@ -190,20 +208,7 @@ class Intervals {
         const std::uint32_t object = base::index(hit.object);
         const base::Vec2d uv = problem_.scene->objects[object].surface->locate(hit.patch, where);
         const auto leaf = solve::findLeaf(problem_, object, hit.patch, hit.back, uv);
-        if (!leaf || h_.shape(*leaf).exposedCells == 0xffff) {
-            return false;
-        }
-        const transport::ElementSampler sampler(h_, *leaf);
-        unsigned nearest = 0;
-        double least = INFINITY;
-        for (unsigned cell = 0; cell < 16; ++cell) {
-            const double distance = glm::distance(sampler.inCell(cell).position, where);
-            if (distance < least) {
-                least = distance;
-                nearest = cell;
-            }
-        }
-        return (h_.shape(*leaf).exposedCells >> nearest & 1u) == 0;
+        return leaf && isInHiddenCell(*leaf, where);
     }
 
     // Half the range of a luminance at most: the channels' mean may have less than it.
@@ -250,6 +255,9 @@ std::vector<Measurement> measureIntervals(const solve::Solver& solver, std::span
                       : point                                                          ? SensorPlace::surface
                                                                                        : SensorPlace::space;
             m.parts = intervals.partsOf(sensors[i], sources);
+            if (point && intervals.isInHiddenCell(point->leaf, point->position)) {
+                m.parts.gaps = std::max(m.parts.gaps, m.illuminance);
+            }
             if (kind == IntervalKind::likely) {
                 intervals.setLikely(m);
             } else {
