@@ -29,7 +29,7 @@ struct Command {
     std::function<std::function<ExitCode()>(CLI::App& app)> declare;
 };
 
-/// solve, measure, info.
+/// solve, measure, verify, info.
 std::vector<Command> coreCommands();
 
 /// Parses and runs; catches what is thrown and prints one line. `commands[0]` is run when the first word that

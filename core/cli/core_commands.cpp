@@ -3,7 +3,7 @@
 namespace fluxwalk::cli {
 
 std::vector<Command> coreCommands() {
-    return {solveCommand(), measureCommand(), infoCommand()};
+    return {solveCommand(), measureCommand(), verifyCommand(), infoCommand()};
 }
 
 }  // namespace fluxwalk::cli

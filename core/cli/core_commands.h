@@ -6,6 +6,7 @@ namespace fluxwalk::cli {
 
 Command solveCommand();
 Command measureCommand();
+Command verifyCommand();
 Command infoCommand();
 
 }  // namespace fluxwalk::cli

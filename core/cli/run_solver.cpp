@@ -14,10 +14,14 @@ ExitCode Solved::exitCode() const {
 }
 
 Solved runSolver(const std::string& command, const SceneArguments& sceneArguments,
-                 const SolverArguments& solverArguments, const OutputArguments& output) {
+                 const SolverArguments& solverArguments, const OutputArguments& output,
+                 const std::function<void(const scene::Scene&)>& check) {
     Checkpointing checkpointing(solverArguments);
     Solved solved;
     solved.scene = std::make_shared<const scene::Scene>(loadScene(sceneArguments));
+    if (check) {
+        check(*solved.scene);
+    }
     if (!output.quiet) {
         for (const std::string& warning : solved.scene->warnings) {
             printWarning(warning);

@@ -1,19 +1,21 @@
 #include "core/image/sensors.h"
 
+#include <cmath>
+
+#include "core/base/photometry.h"
+#include "core/base/random.h"
+
 namespace fluxwalk::image {
 
 namespace {
 
 using base::Vec3d;
 
-/// A sensor this close to a surface along its normal, as a part of the scene's extent, sits on it.
-constexpr double kCapture = 1e-3;
-
 }  // namespace
 
 std::optional<solve::GatherPoint> findSurfacePoint(const solve::Problem& problem,
                                                    const scene::Sensor& sensor) {
-    const double reach = kCapture * problem.scene->bounds().diagonal();
+    const double reach = kCaptureReach * problem.scene->bounds().diagonal();
     // From above, looking back along the normal: what is met first is the side that the sensor lies on.
     const Vec3d from = sensor.position + reach * sensor.normal;
     const rays::Ray ray{base::Vec3(from), 0.0f, base::Vec3(-sensor.normal), static_cast<float>(2.0 * reach)};
@@ -31,10 +33,27 @@ std::optional<solve::GatherPoint> findSurfacePoint(const solve::Problem& problem
         return std::nullopt;
     }
     const auto leaf = solve::findLeaf(problem, base::index(hit->object), hit->patch, back, uv);
-    if (!leaf) {
+    // What lies wholly in a narrow gap has no links, though some light may get there.
+    if (!leaf || problem.hierarchy.shape(*leaf).exposedArea() <= 0.0f) {
         return std::nullopt;
     }
     return solve::GatherPoint{*leaf, p.position, normal};
+}
+
+bool isInSolid(const rays::RayScene& rays, const hierarchy::ReachedSides& reached,
+               const scene::Sensor& sensor) {
+    constexpr unsigned kRays = 32;
+    unsigned dark = 0;
+    for (unsigned i = 0; i < kRays; ++i) {
+        const base::Vec2d p = base::r2Point(i, base::Vec2d(0.5));
+        const double height = 2.0 * p.x - 1.0;
+        const double flat = std::sqrt(std::max(0.0, 1.0 - height * height));
+        const double turn = 2.0 * base::kPi * p.y;
+        const Vec3d direction(flat * std::cos(turn), height, flat * std::sin(turn));
+        const auto hit = rays.closest(rays.halfLine(sensor.position, sensor.normal, direction));
+        dark += hit && !reached.isReached(base::index(hit->object), hit->patch, hit->back) ? 1u : 0u;
+    }
+    return 4 * dark >= kRays;
 }
 
 std::vector<base::Rgb> measure(const solve::Solver& solver, std::span<const scene::Sensor> sensors) {

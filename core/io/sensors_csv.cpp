@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/base/error.h"
@@ -39,12 +40,13 @@ class Reader {
   public:
     explicit Reader(const std::filesystem::path& file) : file_(file.string()) {}
 
-    std::vector<scene::Sensor> read(std::string_view text) {
+    /// `withColumns`: what follows the normals, too.
+    SensorTable read(std::string_view text, bool withColumns) {
         constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
         if (text.starts_with(kByteOrderMark)) {
             text.remove_prefix(kByteOrderMark.size());
         }
-        std::vector<scene::Sensor> sensors;
+        withColumns_ = withColumns;
         bool hasHeader = false;
         while (!text.empty()) {
             ++line_;
@@ -53,16 +55,16 @@ class Reader {
                 continue;
             }
             if (hasHeader) {
-                sensors.push_back(readRow(row));
+                readRow(row);
             } else {
                 readHeader(row);
                 hasHeader = true;
             }
         }
-        if (sensors.empty()) {
+        if (table_.sensors.empty()) {
             throw base::FileError(file_, "", "holds no sensors");
         }
-        return sensors;
+        return std::move(table_);
     }
 
   private:
@@ -70,15 +72,18 @@ class Reader {
         throw base::FileError(file_, "line " + std::to_string(line_), message);
     }
 
-    void readHeader(std::string_view row) const {
+    void readHeader(std::string_view row) {
         for (const std::string_view column : kColumns) {
             if (trim(takeUntil(row, ',')) != column) {
                 fail("the header must begin with x,y,z,nx,ny,nz");
             }
         }
+        while (withColumns_ && !row.empty()) {
+            table_.columns.push_back({std::string(trim(takeUntil(row, ','))), {}});
+        }
     }
 
-    scene::Sensor readRow(std::string_view row) const {
+    void readRow(std::string_view row) {
         std::array<double, kColumns.size()> v{};
         for (std::size_t i = 0; i < v.size(); ++i) {
             if (row.empty()) {
@@ -92,7 +97,13 @@ class Reader {
         if (largest == 0.0) {
             fail("the normal is zero");
         }
-        return {{v[0], v[1], v[2]}, glm::normalize(normal / largest)};
+        table_.sensors.push_back({{v[0], v[1], v[2]}, glm::normalize(normal / largest)});
+        for (SensorColumn& column : table_.columns) {
+            if (row.empty()) {
+                fail("has no value for " + column.name);
+            }
+            column.values.push_back(readNumber(trim(takeUntil(row, ',')), column.name));
+        }
     }
 
     double readNumber(std::string_view text, std::string_view column) const {
@@ -113,38 +124,68 @@ class Reader {
 
     std::string file_;
     std::size_t line_ = 0;
+    bool withColumns_ = false;
+    SensorTable table_;
 };
 
 }  // namespace
 
-std::vector<scene::Sensor> readSensors(const std::filesystem::path& file) {
-    const std::vector<std::uint8_t> bytes = readFile(file);
-    return Reader(file).read({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+std::optional<std::span<const double>> SensorTable::find(std::string_view name) const {
+    for (const SensorColumn& column : columns) {
+        if (column.name == name) {
+            return column.values;
+        }
+    }
+    return std::nullopt;
 }
 
-void writeSensors(const std::filesystem::path& file, std::span<const scene::Sensor> sensors,
-                  std::span<const base::Rgb> irradiance) {
-    FLUXWALK_CHECK_EQ(sensors.size(), irradiance.size());
-    std::string text = "x,y,z,nx,ny,nz,E_r,E_g,E_b,lux\n";
-    const auto add = [&text](double value, char separator) {
+std::vector<scene::Sensor> readSensors(const std::filesystem::path& file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    return Reader(file).read({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, false).sensors;
+}
+
+SensorTable readSensorTable(const std::filesystem::path& file) {
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    return Reader(file).read({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, true);
+}
+
+std::vector<SensorColumn> irradianceColumns(std::span<const base::Vec3d> irradiance) {
+    std::vector<SensorColumn> columns{{"E_r", {}}, {"E_g", {}}, {"E_b", {}}, {"lux", {}}};
+    for (const base::Vec3d& e : irradiance) {
+        for (int c = 0; c < 3; ++c) {
+            columns[static_cast<std::size_t>(c)].values.push_back(e[c]);
+        }
+        columns[3].values.push_back(base::luminance(e));
+    }
+    return columns;
+}
+
+void writeSensorTable(const std::filesystem::path& file, const SensorTable& table) {
+    std::string text = "x,y,z,nx,ny,nz";
+    for (const SensorColumn& column : table.columns) {
+        FLUXWALK_CHECK_EQ(column.values.size(), table.sensors.size());
+        text += ',' + column.name;
+    }
+    text.push_back('\n');
+    const auto add = [&text](double value) {
         std::array<char, 32> buffer{};
         // to_chars, not printf: the decimal point must not follow the user's locale.
         const auto end =
             std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 9);
         text.append(buffer.data(), end.ptr);
-        text.push_back(separator);
+        text.push_back(',');
     };
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (std::size_t i = 0; i < table.sensors.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
-            add(sensors[i].position[c], ',');
+            add(table.sensors[i].position[c]);
         }
         for (int c = 0; c < 3; ++c) {
-            add(sensors[i].normal[c], ',');
+            add(table.sensors[i].normal[c]);
         }
-        for (int c = 0; c < 3; ++c) {
-            add(static_cast<double>(irradiance[i][c]), ',');
+        for (const SensorColumn& column : table.columns) {
+            add(column.values[i]);
         }
-        add(base::luminance(base::Vec3d(irradiance[i])), '\n');
+        text.back() = '\n';
     }
     writeFile(file, text);
 }

@@ -35,6 +35,14 @@ RTCRay toEmbree(const Ray& ray) {
     return r;
 }
 
+RTCRayHit toQuery(const Ray& ray) {
+    RTCRayHit query;
+    query.ray = toEmbree(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    return query;
+}
+
 /// Largest coordinate of a ray that Embree takes (its FLT_LARGE, so that squares stay finite).
 constexpr float kLargestCoordinate = 1.844e18f;
 
@@ -170,6 +178,17 @@ struct RayScene::Impl {
         attach(handle, object);
     }
 
+    std::optional<Hit> read(const RTCRayHit& query) const {
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            return std::nullopt;
+        }
+        const std::span<const std::uint32_t> patches = occluders.objects[query.hit.geomID].patches;
+        const float facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y +
+                             query.hit.Ng_z * query.ray.dir_z;
+        return Hit{query.ray.tfar, base::ObjectId{query.hit.geomID},
+                   patches.empty() ? query.hit.primID : patches[query.hit.primID], facing > 0.0f};
+    }
+
     void attach(RTCGeometry handle, unsigned object) const {
         rtcCommitGeometry(handle);
         rtcAttachGeometryByID(scene, handle, object);
@@ -242,19 +261,31 @@ std::optional<Hit> RayScene::closest(const Ray& ray) const {
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query;
-    query.ray = toEmbree(ray);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = toQuery(ray);
     rtcIntersect1(impl_->scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-        return std::nullopt;
+    return impl_->read(query);
+}
+
+void RayScene::closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+    FLUXWALK_CHECK_EQ(rays.size(), hits.size());
+    std::array<RTCRayHit, kBundle> bundle;
+    for (std::size_t first = 0; first < rays.size(); first += kBundle) {
+        const std::size_t count = std::min(kBundle, rays.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Ray& ray = rays[first + i];
+            bundle[i] = toQuery(isSafe(ray) ? ray : Ray{});
+            if (!isSafe(ray)) {
+                bundle[i].ray.tfar = -INFINITY;  // inactive, meets nothing
+            }
+        }
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1M(impl_->scene, &context, bundle.data(), static_cast<unsigned>(count),
+                       sizeof(RTCRayHit));
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[first + i] = impl_->read(bundle[i]);
+        }
     }
-    const std::span<const std::uint32_t> patches = impl_->occluders.objects[query.hit.geomID].patches;
-    const float facing = query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y +
-                         query.hit.Ng_z * query.ray.dir_z;
-    return Hit{query.ray.tfar, base::ObjectId{query.hit.geomID},
-               patches.empty() ? query.hit.primID : patches[query.hit.primID], facing > 0.0f};
 }
 
 bool RayScene::isOccluded(const Ray& ray) const {

@@ -69,6 +69,8 @@ class RayScene {
     /// Nearest hit; nothing also for rays that make no sense: not finite, coordinates beyond 1.8e18, a
     /// negative tNear, tFar below tNear (Embree could not bear them).
     std::optional<Hit> closest(const Ray& ray) const;
+    /// The same for a bundle of rays; hits[i] belongs to rays[i].
+    void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
     /// Rays that make no sense count as occluded: nothing is known to be free.
     bool isOccluded(const Ray& ray) const;
     /// Occlusion of a bundle of rays with common ends or directions; blocked[i] becomes 1 or 0. Best with 16

@@ -30,12 +30,43 @@ constexpr float kOpenCluster = 4e-3f;
 constexpr double kClusterGap = 1.5;
 constexpr unsigned kClusterRays = 16;
 
+// Variance of the mean of n samples, one from each stratum, strata that follow each other being neighbours:
+// from the differences within pairs, which hold what the strata's means differ by too, so that it is rather
+// too large (Cochran 1977, Sampling Techniques, section 5A.12: collapsed strata). An odd last one joins the
+// pair before.
+class StratifiedVariance {
+  public:
+    void add(double value) {
+        if (count_ % 2 == 1) {
+            squares_ += (value - last_) * (value - last_);
+        }
+        last_ = value;
+        ++count_;
+    }
+    double ofMean() const {
+        const double pairs = std::floor(0.5 * count_);
+        return pairs > 0.0 ? squares_ / (2.0 * pairs * count_) : 0.0;
+    }
+
+  private:
+    double squares_ = 0.0;
+    double last_ = 0.0;
+    unsigned count_ = 0;
+};
+
+// Variance of a visibility that n rays found all alike: of the part that they missed, under Jeffreys' prior.
+double unseenVariance(unsigned rays) {
+    const double n = rays;
+    return 0.5 * (n + 0.5) / ((n + 1.0) * (n + 1.0) * (n + 2.0));
+}
+
 class PointGather {
   public:
     PointGather(const Problem& problem, const Vec3d& position, const Vec3d& normal,
-                std::vector<Contribution>* contributions = nullptr)
+                std::vector<Contribution>* contributions, std::vector<GatheredSource>* sources)
         : problem_(problem),
           contributions_(contributions),
+          sources_(sources),
           h_(problem.hierarchy),
           x_(position),
           n_(normal),
@@ -74,6 +105,12 @@ class PointGather {
         }
     }
 
+    void record(const GatheredSource& source) {
+        if (sources_ != nullptr) {
+            sources_->push_back(source);
+        }
+    }
+
     // Clusters that cannot matter much are sampled, others opened.
     void addCluster(NodeId source, bool isOpen) {
         const hierarchy::Shape& shape = h_.shape(source);
@@ -101,6 +138,8 @@ class PointGather {
         std::array<Vec3d, kClusterRays> sent{};
         std::array<NodeId, kClusterRays> senders{};
         std::array<std::uint8_t, kClusterRays> blocked{};
+        std::array<double, kClusterRays> parts{};
+        std::array<unsigned, kClusterRays> strata{};
         unsigned used = 0;
         for (unsigned k = 0; k < kClusterRays; ++k) {
             const double place = (k + random.next()) / kClusterRays;
@@ -112,18 +151,37 @@ class PointGather {
                 const double r2 = glm::dot(d, d);
                 const double part = static_cast<double>(shape.exposedArea()) / kClusterRays;
                 senders[used] = h_.patches()[at.patch];
-                sent[used] = at.point.measure * part * cosines / (base::kPi * r2 * r2) *
-                             Vec3d(h_.light(senders[used]).radiosity);
+                parts[used] = at.point.measure * part * cosines / (base::kPi * r2 * r2);
+                sent[used] = parts[used] * Vec3d(h_.light(senders[used]).radiosity);
+                strata[used] = k;
                 bundle[used++] = problem_.rays.segment(x_, n_, at.point.position, at.point.normal);
             }
         }
         if (!isOpen) {
             problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
         }
+        GatheredSource found;
+        found.source = source;
+        found.isSampled = true;
+        found.isOpen = isOpen;
+        std::array<double, kClusterRays> arriving{};
         for (unsigned k = 0; k < used; ++k) {
+            found.factor += parts[k];
             if (blocked[k] == 0) {
                 deposit(senders[k], sent[k]);
+                found.irradiance += sent[k];
+                found.transfer += parts[k];
+                arriving[strata[k]] = parts[k];
             }
+        }
+        if (sources_ != nullptr && found.factor > 0.0) {
+            StratifiedVariance variance;
+            for (const double value : arriving) {
+                variance.add(kClusterRays * value);
+            }
+            found.variance =
+                std::max(variance.ofMean(), found.factor * found.factor * unseenVariance(kClusterRays));
+            record(found);
         }
     }
 
@@ -153,8 +211,18 @@ class PointGather {
         if (contribution <= 0.0f) {
             return;
         }
-        const double visibility = isOpen ? 1.0 : sampleVisibility(source, contribution);
-        deposit(source, factor * visibility * Vec3d(light.radiosity));
+        const Visibility visibility = isOpen ? Visibility{} : sampleVisibility(source, contribution);
+        const double transfer = factor * visibility.mean;
+        deposit(source, transfer * Vec3d(light.radiosity));
+        if (sources_ != nullptr) {
+            // Over a small source the kernel changes by its cosines and distance, at most twice each.
+            const double span =
+                std::min(1.0, 2.0 * static_cast<double>(shape.radius) / glm::length(toSource));
+            const double hidden = visibility.mean > 0.0 ? (1.0 - visibility.mean) / visibility.mean : 0.0;
+            record({source, transfer * Vec3d(light.radiosity), factor, transfer,
+                    factor * factor * visibility.variance, span + std::sqrt(hidden), !shape.isPlanar,
+                    isOpen});
+        }
     }
 
     // Part of the source's kernel at the point that comes from its exposed cells.
@@ -176,7 +244,12 @@ class PointGather {
         return contribution > 0.1f ? 16 : contribution > 0.01f ? 8 : contribution > 5e-4f ? 4 : 2;
     }
 
-    double sampleVisibility(NodeId source, float contribution) {
+    struct Visibility {
+        double mean = 1.0;
+        double variance = 0.0;  ///< of the mean
+    };
+
+    Visibility sampleVisibility(NodeId source, float contribution) {
         const unsigned side = chooseSide(contribution);
         const hierarchy::Shape& shape = h_.shape(source);
         const hierarchy::ElementName name = h_.name(source);
@@ -208,7 +281,7 @@ class PointGather {
             bundle[used++] = problem_.rays.segment(x_, n_, p.position, m);
         }
         if (used == 0) {
-            return 1.0;
+            return {};
         }
         problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
         double all = 0.0;
@@ -217,7 +290,18 @@ class PointGather {
             all += weights[i];
             seen += blocked[i] != 0 ? 0.0 : weights[i];
         }
-        return seen / all;
+        Visibility result{seen / all};
+        if (sources_ != nullptr) {
+            StratifiedVariance variance;
+            for (unsigned i = 0; i < used; ++i) {
+                const double free = blocked[i] != 0 ? 0.0 : 1.0;
+                variance.add(weights[i] * used / all * (free - result.mean));
+            }
+            // No more than that of one ray where few points make up nearly all of the kernel.
+            result.variance = std::max(std::min(variance.ofMean(), result.mean * (1.0 - result.mean)),
+                                       unseenVariance(used));
+        }
+        return result;
     }
 
     void addLight(NodeId source) {
@@ -226,6 +310,7 @@ class PointGather {
             const double cosine = -glm::dot(n_, light.direction);
             if (cosine > 0.0 && !problem_.rays.isOccluded(problem_.rays.halfLine(x_, n_, -light.direction))) {
                 deposit(source, cosine * Vec3d(h_.light(source).emission));
+                record({source, cosine * Vec3d(h_.light(source).emission)});
             }
             return;
         }
@@ -234,9 +319,11 @@ class PointGather {
         const double cosine = glm::dot(n_, d) / std::sqrt(r2);
         if (cosine > 0.0 && scene::reaches(light, r2) &&
             !problem_.rays.isOccluded(problem_.rays.segment(x_, n_, light.position, Vec3d(0.0)))) {
-            deposit(source, cosine / r2 *
-                                Vec3d(scene::intensityToward(light, -glm::normalize(d)) *
-                                      h_.lighting().ofLight(h_.lightIndex(source))));
+            const Vec3d irradiance = cosine / r2 *
+                                     Vec3d(scene::intensityToward(light, -glm::normalize(d)) *
+                                           h_.lighting().ofLight(h_.lightIndex(source)));
+            deposit(source, irradiance);
+            record({source, irradiance});
         }
     }
 
@@ -252,6 +339,7 @@ class PointGather {
         unsigned used = 0;
         unsigned all = 0;
         unsigned seen = 0;
+        StratifiedVariance variance;
         for (unsigned i = 0; i < kSide * kSide; ++i) {
             const Vec2d jitter = random.next2();
             const double sine = std::sqrt((i % kSide + jitter.x) / kSide);
@@ -264,18 +352,26 @@ class PointGather {
             }
             if (used == kMaxRays || (i + 1 == kSide * kSide && used > 0)) {
                 problem_.rays.occluded(std::span(bundle.data(), used), std::span(blocked.data(), used));
-                seen += static_cast<unsigned>(std::count(blocked.begin(), blocked.begin() + used, 0));
+                for (unsigned k = 0; k < used; ++k) {
+                    seen += blocked[k] == 0 ? 1u : 0u;
+                    variance.add(blocked[k] == 0 ? 1.0 : 0.0);
+                }
                 all += used;
                 used = 0;
             }
         }
         if (all > 0) {
-            deposit(source, 0.5 * (1.0 + n_.y) * seen / all * Vec3d(h_.light(source).radiosity));
+            const double factor = 0.5 * (1.0 + n_.y);
+            const double transfer = factor * seen / all;
+            deposit(source, transfer * Vec3d(h_.light(source).radiosity));
+            record({source, transfer * Vec3d(h_.light(source).radiosity), factor, transfer,
+                    factor * factor * std::max(variance.ofMean(), unseenVariance(all))});
         }
     }
 
     const Problem& problem_;
     std::vector<Contribution>* contributions_;
+    std::vector<GatheredSource>* sources_;
     const Hierarchy& h_;
     Vec3d x_;
     Vec3d n_;
@@ -286,10 +382,10 @@ class PointGather {
 
 }  // namespace
 
-Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point,
-                  std::vector<Contribution>* contributions) {
+Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point, std::vector<Contribution>* contributions,
+                  std::vector<GatheredSource>* sources) {
     const Hierarchy& h = problem.hierarchy;
-    PointGather gather(problem, point.position, point.normal, contributions);
+    PointGather gather(problem, point.position, point.normal, contributions, sources);
     for (NodeId id = point.leaf; id != NodeId::none; id = h.parent(id)) {
         for (const std::uint32_t l : problem.links.endingAt(id)) {
             const hierarchy::Link& link = problem.links.links[l];
@@ -299,8 +395,9 @@ Rgb gatherAtPoint(const Problem& problem, const GatherPoint& point,
     return Rgb(gather.sum());
 }
 
-Rgb gatherInSpace(const Problem& problem, const Vec3d& position, const Vec3d& normal) {
-    PointGather gather(problem, position, normal);
+Rgb gatherInSpace(const Problem& problem, const Vec3d& position, const Vec3d& normal,
+                  std::vector<GatheredSource>* sources) {
+    PointGather gather(problem, position, normal, nullptr, sources);
     if (problem.hierarchy.root() != NodeId::none) {
         gather.add(problem.hierarchy.root(), false);
     }

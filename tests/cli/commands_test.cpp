@@ -1,3 +1,4 @@
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -155,12 +156,25 @@ TEST_F(Commands, MeasureGivesTheClosedFormBetweenSquares) {
     std::istringstream out(read("out.csv"));
     std::string line;
     std::getline(out, line);
-    EXPECT_EQ(line, "x,y,z,nx,ny,nz,E_r,E_g,E_b,lux");
-    double largest = 0.0;
+    EXPECT_EQ(line, "x,y,z,nx,ny,nz,E_r,E_g,E_b,lux,low,high,solid");
+    std::array<double, 3> brightest{};  // lux, low and high
     while (std::getline(out, line)) {
-        largest = std::max(largest, std::stod(line.substr(line.rfind(',') + 1)));
+        std::istringstream cells(line);
+        std::array<double, 13> row{};
+        for (double& value : row) {
+            std::string cell;
+            std::getline(cells, cell, ',');
+            value = std::stod(cell);
+        }
+        EXPECT_EQ(row[12], 0.0);
+        if (row[9] > brightest[0]) {
+            brightest = {row[9], row[10], row[11]};
+        }
     }
-    EXPECT_NEAR(largest / (factor * lumens), 1.0, 0.01);
+    EXPECT_NEAR(brightest[0] / (factor * lumens), 1.0, 0.01);
+    EXPECT_LE(brightest[1], factor * lumens);
+    EXPECT_GE(brightest[2], factor * lumens);
+    EXPECT_LE(brightest[2] - brightest[1], 0.1 * factor * lumens);
 }
 
 TEST_F(Commands, InfoListsAndDescribes) {

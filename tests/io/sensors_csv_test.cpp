@@ -68,14 +68,14 @@ TEST_F(SensorsCsv, NamesTheLineOfEveryKindOfBadRow) {
 
 TEST_F(SensorsCsv, WritesTheOrderAndDigitsPromised) {
     const std::vector<scene::Sensor> sensors{{{0.1, -2, 1e-7}, {0, 1, 0}}, {{1, 2, 3}, {0, 0, -1}}};
-    const std::vector<base::Rgb> irradiance{{1000.0f, 100.0f, 10.0f}, {0.0f, 0.0f, 1.0f / 3.0f}};
-    io::writeSensors(file_, sensors, irradiance);
+    const std::vector<base::Vec3d> irradiance{{1000, 100, 10}, {0, 0, 1.0 / 3.0}};
+    io::writeSensorTable(file_, {sensors, io::irradianceColumns(irradiance)});
     const auto bytes = io::readFile(file_);
     const std::string text(bytes.begin(), bytes.end());
     EXPECT_EQ(text,
               "x,y,z,nx,ny,nz,E_r,E_g,E_b,lux\n"
               "0.1,-2,1e-07,0,1,0,1000,100,10,284.842\n"
-              "1,2,3,0,0,-1,0,0,0.333333343,0.0240666674\n");
+              "1,2,3,0,0,-1,0,0,0.333333333,0.0240666667\n");
     EXPECT_EQ(io::readSensors(file_).size(), 2u);
 }
 
