@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+#include "core/solve/state.h"
+#include "core/transport/cluster_points.h"
+#include "core/transport/element_points.h"
+
+/// What lights an element, prepared once for all pixels that see it: the links of the element and of all that
+/// it is part of name the sources (ALGORITHMS 1.14), and over the element their form factors are smooth.
+namespace fluxwalk::image {
+
+using base::NodeId;
+using base::Rgb;
+using base::Vec3d;
+
+/// Terms of a quadratic function of two coordinates: 1, a, b, a a, a b, b b.
+inline constexpr std::size_t kTerms = 6;
+using Terms = std::array<float, kTerms>;
+
+/// Coordinates in an element's tangent plane, 0 in its middle, about 1 at its ends, and the quadratic
+/// functions of them that fit values at the element's eight points best.
+class TangentFit {
+  public:
+    TangentFit() = default;
+    explicit TangentFit(const transport::ElementPoints& element);
+
+    Terms termsAt(const Vec3d& position) const;
+    /// Coefficients for values at the eight points.
+    Terms fit(const base::Lanes& values) const;
+    /// Largest difference at the eight points between the values and what the coefficients make of them.
+    float residual(const base::Lanes& values, const Terms& coefficients) const;
+
+  private:
+    Vec3d middle_{};
+    Vec3d along_{};   ///< unit tangent over the element's half length that way
+    Vec3d across_{};  ///< likewise
+    std::array<std::array<double, base::kLanes>, kTerms> solution_{};
+    std::array<Terms, base::kLanes> terms_{};
+};
+
+/// Value of a fitted function.
+inline float evaluate(const Terms& coefficients, const Terms& at) {
+    float sum = 0.0f;
+    for (std::size_t k = 0; k < kTerms; ++k) {
+        sum += coefficients[k] * at[k];
+    }
+    return sum;
+}
+
+/// One source: an element, cluster, light or the sky.
+struct Source {
+    NodeId node = NodeId::none;
+    Rgb radiosity{0.0f};      ///< lm/m2
+    float brightness = 0.0f;  ///< mean of its channels
+    /// Largest unoccluded irradiance, mean of the channels, at the points of the element, lux.
+    float most = 0.0f;
+    /// Of its unoccluded irradiance the part that the solve saw arrive at the element.
+    float visibility = 1.0f;
+    /// Form factor over the element, where a function of place can say it; `near` otherwise.
+    Terms factor{};
+    /// Index into LeafSources::nearPoints of what is to be integrated anew at every point; none: -1.
+    std::int32_t near = -1;
+    bool isPartlyHidden = false;
+};
+
+struct LeafSources {
+    NodeId leaf = NodeId::none;
+    TangentFit fit;
+    /// Unoccluded irradiance in lux of all sources that surely nothing hides and that vary smoothly.
+    std::array<Terms, 3> open{};
+    /// Sources that surely nothing hides, to be integrated at every point.
+    std::vector<Source> openNear;
+    /// Sources with shadow rays of their own: those that bring most.
+    std::vector<Source> strong;
+    /// All others, in the order of their direction, so that neighbours share what hides them.
+    std::vector<Source> weak;
+    std::vector<transport::ElementPoints> nearPoints;
+    /// Lights without area and the sky.
+    std::vector<NodeId> lights;
+};
+
+/// Makes them, and keeps what several elements ask for. Not for several threads at once.
+class SourceFinder {
+  public:
+    explicit SourceFinder(const solve::Problem& problem) : problem_(problem), h_(problem.hierarchy) {}
+
+    /// Sources of a leaf. `isExact`: no smooth functions, as points will have normals of their own.
+    LeafSources find(NodeId leaf, bool isExact);
+
+  private:
+    struct Search;
+    void add(Search& search, NodeId source, bool isOpen, float visibility);
+    void addCluster(Search& search, NodeId source, bool isOpen, float visibility);
+    void addElement(Search& search, NodeId source, bool isOpen, float visibility);
+    const transport::ClusterPoints& clusterPoints(NodeId cluster);
+
+    const solve::Problem& problem_;
+    const hierarchy::Hierarchy& h_;
+    std::unordered_map<NodeId, std::unique_ptr<transport::ClusterPoints>> clusterPoints_;
+};
+
+/// Part of a source's kernel at a point that comes from its exposed cells.
+double exposedShareAt(const hierarchy::Hierarchy& hierarchy, NodeId source, const Vec3d& x, const Vec3d& n);
+
+}  // namespace fluxwalk::image

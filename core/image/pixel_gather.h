@@ -1,0 +1,80 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/image/leaf_sources.h"
+#include "core/rays/ray.h"
+
+/// Irradiance for pictures: the same sources and exact form factors as solve/point_gather.h, at a bounded
+/// number of shadow rays for each point.
+namespace fluxwalk::image {
+
+/// A point of an element that a picture shows.
+struct PixelPoint {
+    Vec3d position{};
+    Vec3d normal{};         ///< of the surface, unit, towards the side that is seen
+    Vec3d shading{};        ///< the normal that a normal or height map makes of it
+    std::uint64_t key = 0;  ///< of what is random about the point
+};
+
+struct GatherRays {
+    /// Most shadow rays to a source that brings all the light, and to all weak sources together.
+    unsigned strong = 96;
+    unsigned weak = 64;
+    unsigned sky = 96;
+};
+
+/// Gathers at points of one element. Not for several threads at once: it keeps its buffers.
+class PixelGather {
+  public:
+    PixelGather(const solve::Problem& problem, const GatherRays& rays) : problem_(problem), budget_(rays) {}
+
+    /// Most points at once: as many as kernels compute together.
+    static constexpr std::size_t kPoints = base::kLanes;
+
+    /// Irradiance in lux at up to kPoints points of the leaf of `sources`.
+    void gather(const LeafSources& sources, std::span<const PixelPoint> points, std::span<Rgb> irradiance);
+
+    std::uint64_t rayCount() const { return rayCount_; }
+
+  private:
+    /// Shadow rays to one strong source: the first ones, and more where these do not agree.
+    struct Bundle {
+        std::size_t source = 0;
+        double factor = 0.0;
+        std::size_t first = 0;
+        std::size_t used = 0;
+        unsigned tried = 0;
+        unsigned most = 0;
+        double all = 0.0;
+        double seen = 0.0;
+    };
+
+    void computeFactors(const LeafSources& sources, std::span<const PixelPoint> points);
+    double factorAt(const Source& source, const Terms& terms, std::size_t point) const;
+    Rgb gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index);
+    void aimStrong(const LeafSources& sources, const PixelPoint& point, Bundle& bundle, unsigned count);
+    void aimWeak(const LeafSources& sources, const PixelPoint& point, double share);
+    void trace();
+    void count(Bundle& bundle) const;
+    Rgb sumWeak(const LeafSources& sources) const;
+    Vec3d addLights(const LeafSources& sources, const PixelPoint& point);
+    Vec3d addSky(NodeId sky, const PixelPoint& point);
+
+    const solve::Problem& problem_;
+    GatherRays budget_;
+    std::uint64_t rayCount_ = 0;
+    /// Exact factors of LeafSources::nearPoints at the points.
+    std::vector<base::Lanes> nearFactors_;
+    std::vector<Bundle> bundles_;
+    std::vector<rays::Ray> rays_;
+    std::vector<double> weights_;
+    std::vector<std::uint8_t> blocked_;
+    std::vector<float> weakWeights_;
+    /// Of the rays to weak sources: what they would bring, relative to all of them.
+    std::vector<Rgb> weakLight_;
+    std::size_t firstWeak_ = 0;
+};
+
+}  // namespace fluxwalk::image
