@@ -1,0 +1,111 @@
+// Stills by final gathering: time, rays and error against path-traced references of the same pixels.
+#include <chrono>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/scene/builders.h"
+#include "core/solve/solver.h"
+#include "tests/support/still_errors.h"
+
+namespace {
+
+using namespace fluxwalk;
+using Clock = std::chrono::steady_clock;
+
+struct Case {
+    std::string scene;
+    std::string camera;
+    std::uint32_t step = 24;
+};
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+nlohmann::ordered_json run(const Case& one, double error, unsigned rays, std::uint32_t width,
+                           std::uint32_t height, std::uint64_t paths, unsigned samples) {
+    const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene(one.scene));
+    solve::Options options;
+    options.error = error;
+    options.errorOf = solve::ErrorOf::gathered;
+    auto start = Clock::now();
+    solve::Solver solver(scene, options, 0);
+    solver.solve({});
+    const double solving = secondsSince(start);
+    const auto camera = std::find_if(scene->cameras.begin(), scene->cameras.end(),
+                                     [&](const scene::Camera& c) { return c.name == one.camera; });
+    image::StillOptions still;
+    still.width = width;
+    still.height = height;
+    still.rays.weak = rays;
+    still.rays.strong = still.rays.sky = rays + rays / 2;
+    still.samples = samples;
+    start = Clock::now();
+    const image::Still picture = image::takeStill(solver.problem(), *camera, still);
+    const double gathering = secondsSince(start);
+    still.samples = 1;
+    const image::Still plain = samples == 1 ? picture : image::takeStill(solver.problem(), *camera, still);
+    const test::StillPoints points = test::findStillPoints(solver.problem(), *camera, still, one.step);
+    start = Clock::now();
+    const test::StillErrors errors = test::compareStill(solver.problem(), plain, points, paths);
+    const double tracing = secondsSince(start);
+    const double raysEach = static_cast<double>(picture.rays) / static_cast<double>(picture.gathers);
+    // Error of the path tracer falls with the root of its time: what it would take to be as exact.
+    const double ratio = errors.standardError / errors.error;
+    const double pixels = static_cast<double>(width) * height;
+    const double tracer = tracing / static_cast<double>(points.sensors.size()) * pixels * ratio * ratio;
+    fmt::print(
+        "{:14} {:10} solve {:6.2f} s  gather {:6.2f} s  {:5.1f} rays a point, {:.2f} points a pixel  "
+        "error {:.2f} %  bias {:+.2f} %  (reference +- {:.2f} %)  path tracer to the same {:.0f} s\n",
+        one.scene, one.camera, solving, gathering, raysEach, static_cast<double>(picture.gathers) / pixels,
+        100.0 * errors.error, 100.0 * errors.bias, 100.0 * errors.standardError, tracer);
+    return {{"scene", one.scene},
+            {"camera", one.camera},
+            {"width", width},
+            {"height", height},
+            {"solveSeconds", solving},
+            {"gatherSeconds", gathering},
+            {"raysPerPoint", raysEach},
+            {"error", errors.error},
+            {"bias", errors.bias},
+            {"referenceError", errors.standardError},
+            {"pathTracerSeconds", tracer}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Stills by final gathering against the path tracer.");
+    std::vector<std::string> scenes;
+    double error = 0.05;
+    unsigned rays = image::GatherRays{}.weak;
+    unsigned samples = 8;
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::uint64_t paths = 2048;
+    std::string json;
+    app.add_option("--scene", scenes, "Only these.");
+    app.add_option("--error", error, "Of the solution.");
+    app.add_option("--shadow-rays", rays, "As in render.");
+    app.add_option("--samples", samples, "As in render.");
+    app.add_option("--width", width);
+    app.add_option("--height", height);
+    app.add_option("--paths", paths, "For each point of the reference.");
+    app.add_option("--json", json, "Results as a file.");
+    CLI11_PARSE(app, argc, argv);
+    const std::vector<Case> cases{
+        {"cornell-box", "front"}, {"gallery", "entrance"}, {"gallery", "vases"}, {"building:10000", "room"}};
+    nlohmann::ordered_json results = nlohmann::json::array();
+    for (const Case& one : cases) {
+        if (scenes.empty() || std::find(scenes.begin(), scenes.end(), one.scene) != scenes.end()) {
+            results.push_back(run(one, error, rays, width, height, paths, samples));
+        }
+    }
+    if (!json.empty()) {
+        std::ofstream(json) << results.dump(2) << "\n";
+    }
+    return 0;
+}
