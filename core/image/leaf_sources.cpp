@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/transport/element_sampler.h"
 #include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
 
@@ -99,6 +100,21 @@ std::uint32_t orderOf(const Vec3d& direction, const Vec3d& along, const Vec3d& a
 }
 
 }  // namespace
+
+transport::ClusterSampler::Place samplePoint(const hierarchy::Hierarchy& hierarchy, NodeId source,
+                                             const base::Vec2d& random) {
+    transport::ClusterSampler::Place result;
+    double mean = 1.0;
+    if (hierarchy.kind(source) == NodeKind::cluster) {
+        result = transport::ClusterSampler(hierarchy, source).at(random.x, random.y);
+    } else {
+        const transport::ElementSampler sampler(hierarchy, source);
+        result.point = sampler.inExposed(random);
+        mean = sampler.meanMeasure();
+    }
+    result.point.measure *= toDouble(hierarchy.shape(source).sampledArea()) / mean;
+    return result;
+}
 
 TangentFit::TangentFit(const transport::ElementPoints& element) : middle_(element.center) {
     const Vec3d normal = lane(element.normal, 0);

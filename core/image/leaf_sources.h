@@ -66,6 +66,11 @@ struct Source {
     bool isPartlyHidden = false;
 };
 
+/// Point of a source for two numbers in [0, 1): uniform where areas are. `measure` is its area in m2 for all
+/// such pairs together. Of clusters also the patch, as an index into Hierarchy::patches().
+transport::ClusterSampler::Place samplePoint(const hierarchy::Hierarchy& hierarchy, NodeId source,
+                                             const base::Vec2d& random);
+
 struct LeafSources {
     NodeId leaf = NodeId::none;
     TangentFit fit;

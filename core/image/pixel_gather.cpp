@@ -97,11 +97,11 @@ void PixelGather::gather(const LeafSources& sources, std::span<const PixelPoint>
 void PixelGather::aimStrong(const LeafSources& sources, const PixelPoint& point, Bundle& bundle,
                             unsigned count) {
     const NodeId node = sources.strong[bundle.source].node;
-    const transport::ElementSampler sampler(problem_.hierarchy, node);
     const Vec2d shift = shiftOf(base::combine(point.key, problem_.hierarchy.key(node)));
     bundle.first = rays_.size();
     for (unsigned k = bundle.tried; k < bundle.tried + count; ++k) {
-        const transport::SurfaceSample y = sampler.inExposed(base::r2Point(k, shift));
+        const transport::SurfaceSample y =
+            samplePoint(problem_.hierarchy, node, base::r2Point(k, shift)).point;
         const double weight = y.measure * kernelBetween(point.position, point.shading, y);
         if (weight > 0.0) {
             rays_.push_back(problem_.rays.segment(point.position, point.normal, y.position, y.normal));
@@ -121,7 +121,7 @@ void PixelGather::count(Bundle& bundle) const {
 
 void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, double share) {
     firstWeak_ = rays_.size();
-    weakLight_.clear();
+    weakRays_.clear();
     double sum = 0.0;
     for (const float w : weakWeights_) {
         sum += static_cast<double>(w);
@@ -147,22 +147,12 @@ void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, d
         if (!(weight > 0.0)) {
             continue;
         }
-        const hierarchy::Shape& shape = h.shape(source.node);
-        Vec2d st = base::r2Point(k, shift);
-        transport::SurfaceSample y;
-        Rgb radiosity = source.radiosity;
-        if (h.kind(source.node) == hierarchy::NodeKind::cluster) {
-            const transport::ClusterSampler::Place at =
-                transport::ClusterSampler(h, source.node).at(st.x, st.y);
-            y = at.point;
-            radiosity = h.light(h.patches()[at.patch]).radiosity;
-        } else {
-            const transport::ElementSampler sampler(h, source.node);
-            y = sampler.inExposed(st);
-            y.measure /= sampler.meanMeasure();
-        }
-        const double kernel = y.measure * static_cast<double>(shape.sampledArea()) *
-                              kernelBetween(point.position, point.shading, y);
+        const transport::ClusterSampler::Place at = samplePoint(h, source.node, base::r2Point(k, shift));
+        const transport::SurfaceSample& y = at.point;
+        const Rgb& radiosity = h.kind(source.node) == hierarchy::NodeKind::cluster
+                                   ? h.light(h.patches()[at.patch]).radiosity
+                                   : source.radiosity;
+        const double kernel = y.measure * kernelBetween(point.position, point.shading, y);
         if (!(kernel > 0.0)) {
             continue;
         }
@@ -172,41 +162,38 @@ void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, d
         if (brightness > static_cast<float>(kMostWeight)) {
             light *= static_cast<float>(kMostWeight) / brightness;
         }
-        weakLight_.push_back(light);
+        weakRays_.push_back({light, source.visibility});
         rays_.push_back(problem_.rays.segment(point.position, point.normal, y.position, y.normal));
         weights_.push_back(0.0);
     }
 }
 
+// What the solve knows of the sources' visibility, corrected by what the rays find of it at this point: where
+// it knows all, as where nothing hides anything, no noise is left.
 Rgb PixelGather::sumWeak(const LeafSources& sources) const {
     Rgb unoccluded(0.0f);
-    float expected = 0.0f;
-    float sum = 0.0f;
+    Rgb expected(0.0f);
     for (std::size_t j = 0; j < weakWeights_.size(); ++j) {
         if (weakWeights_[j] > 0.0f) {
-            unoccluded += sources.weak[j].radiosity * (weakWeights_[j] / sources.weak[j].brightness);
-            expected += weakWeights_[j] * sources.weak[j].visibility;
-            sum += weakWeights_[j];
+            const Source& source = sources.weak[j];
+            const Rgb light = source.radiosity * (weakWeights_[j] / source.brightness);
+            unoccluded += light;
+            expected += source.visibility * light;
         }
     }
-    if (!(sum > 0.0f)) {
-        return Rgb(0.0f);
-    }
-    // What is seen of all that the rays ask for, channel by channel: right to the last digit where nothing
-    // hides anything.
     Rgb all(0.0f);
-    Rgb seen(0.0f);
-    for (std::size_t i = 0; i < weakLight_.size(); ++i) {
-        all += weakLight_[i];
-        if (blocked_[firstWeak_ + i] == 0) {
-            seen += weakLight_[i];
+    Rgb surplus(0.0f);
+    for (std::size_t i = 0; i < weakRays_.size(); ++i) {
+        const WeakRay& ray = weakRays_[i];
+        all += ray.light;
+        surplus += ((blocked_[firstWeak_ + i] == 0 ? 1.0f : 0.0f) - ray.expected) * ray.light;
+    }
+    for (int c = 0; c < 3; ++c) {
+        if (all[c] > 0.0f) {
+            expected[c] = atLeastZero(expected[c] + unoccluded[c] * surplus[c] / all[c]);
         }
     }
-    Rgb result(0.0f);
-    for (int c = 0; c < 3; ++c) {
-        result[c] = unoccluded[c] * (all[c] > 0.0f ? seen[c] / all[c] : expected / sum);
-    }
-    return result;
+    return expected;
 }
 
 void PixelGather::trace() {

@@ -20,9 +20,9 @@ struct PixelPoint {
 
 struct GatherRays {
     /// Most shadow rays to a source that brings all the light, and to all weak sources together.
-    unsigned strong = 96;
-    unsigned weak = 64;
-    unsigned sky = 96;
+    unsigned strong = 128;
+    unsigned weak = 96;
+    unsigned sky = 128;
 };
 
 /// Gathers at points of one element. Not for several threads at once: it keeps its buffers.
@@ -72,8 +72,13 @@ class PixelGather {
     std::vector<double> weights_;
     std::vector<std::uint8_t> blocked_;
     std::vector<float> weakWeights_;
-    /// Of the rays to weak sources: what they would bring, relative to all of them.
-    std::vector<Rgb> weakLight_;
+    /// A ray to a weak source: what it would bring, relative to all of them, and how likely the solve takes
+    /// it to arrive.
+    struct WeakRay {
+        Rgb light{0.0f};
+        float expected = 0.0f;
+    };
+    std::vector<WeakRay> weakRays_;
     std::size_t firstWeak_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // Stills by final gathering: time, rays and error against path-traced references of the same pixels.
 #include <chrono>
 #include <fstream>
+#include <numeric>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -25,8 +26,8 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-nlohmann::ordered_json run(const Case& one, double error, unsigned rays, std::uint32_t width,
-                           std::uint32_t height, std::uint64_t paths, unsigned samples) {
+nlohmann::ordered_json run(const Case& one, double error, unsigned rays, unsigned strong, std::uint32_t width,
+                           std::uint32_t height, std::uint64_t paths, unsigned samples, std::size_t worst) {
     const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene(one.scene));
     solve::Options options;
     options.error = error;
@@ -41,7 +42,7 @@ nlohmann::ordered_json run(const Case& one, double error, unsigned rays, std::ui
     still.width = width;
     still.height = height;
     still.rays.weak = rays;
-    still.rays.strong = still.rays.sky = rays + rays / 2;
+    still.rays.strong = still.rays.sky = strong > 0 ? strong : rays + rays / 3;
     still.samples = samples;
     start = Clock::now();
     const image::Still picture = image::takeStill(solver.problem(), *camera, still);
@@ -62,6 +63,19 @@ nlohmann::ordered_json run(const Case& one, double error, unsigned rays, std::ui
         "error {:.2f} %  bias {:+.2f} %  (reference +- {:.2f} %)  path tracer to the same {:.0f} s\n",
         one.scene, one.camera, solving, gathering, raysEach, static_cast<double>(picture.gathers) / pixels,
         100.0 * errors.error, 100.0 * errors.bias, 100.0 * errors.standardError, tracer);
+    std::vector<std::size_t> order(points.sensors.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::abs(errors.differences[a]) > std::abs(errors.differences[b]);
+    });
+    for (std::size_t i = 0; i < std::min(worst, order.size()); ++i) {
+        const scene::Sensor& s = points.sensors[order[i]];
+        fmt::print(
+            "  {:+.3f} of {:.3f} cd/m2 at {:.4f},{:.4f},{:.4f} normal {:.2f},{:.2f},{:.2f} pixel {},{}\n",
+            errors.differences[order[i]], errors.truths[order[i]], s.position.x, s.position.y, s.position.z,
+            s.normal.x, s.normal.y, s.normal.z, points.pixels[order[i]] % width,
+            points.pixels[order[i]] / width);
+    }
     return {{"scene", one.scene},
             {"camera", one.camera},
             {"width", width},
@@ -80,20 +94,24 @@ nlohmann::ordered_json run(const Case& one, double error, unsigned rays, std::ui
 int main(int argc, char** argv) {
     CLI::App app("Stills by final gathering against the path tracer.");
     std::vector<std::string> scenes;
-    double error = 0.05;
+    double error = 0.02;
     unsigned rays = image::GatherRays{}.weak;
+    unsigned strong = 0;
     unsigned samples = 8;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
     std::uint64_t paths = 2048;
+    std::size_t worst = 0;
     std::string json;
     app.add_option("--scene", scenes, "Only these.");
     app.add_option("--error", error, "Of the solution.");
     app.add_option("--shadow-rays", rays, "As in render.");
+    app.add_option("--lamp-rays", strong, "Shadow rays to a strong source; by default a third more.");
     app.add_option("--samples", samples, "As in render.");
     app.add_option("--width", width);
     app.add_option("--height", height);
     app.add_option("--paths", paths, "For each point of the reference.");
+    app.add_option("--worst", worst, "Points to list, those with the largest errors.");
     app.add_option("--json", json, "Results as a file.");
     CLI11_PARSE(app, argc, argv);
     const std::vector<Case> cases{
@@ -101,7 +119,7 @@ int main(int argc, char** argv) {
     nlohmann::ordered_json results = nlohmann::json::array();
     for (const Case& one : cases) {
         if (scenes.empty() || std::find(scenes.begin(), scenes.end(), one.scene) != scenes.end()) {
-            results.push_back(run(one, error, rays, width, height, paths, samples));
+            results.push_back(run(one, error, rays, strong, width, height, paths, samples, worst));
         }
     }
     if (!json.empty()) {

@@ -35,6 +35,8 @@ StillErrors compareStill(const solve::Problem& problem, const image::Still& stil
     double noise = 0.0;
     for (std::size_t i = 0; i < points.sensors.size(); ++i) {
         const std::size_t pixel = 3 * points.pixels[i];
+        result.differences.push_back(0.0);
+        result.truths.push_back(0.0);
         for (int c = 0; c < 3; ++c) {
             const double reflectance = static_cast<double>(points.reflectance[i][c]) / base::kPi;
             const double shown =
@@ -44,6 +46,8 @@ StillErrors compareStill(const solve::Problem& problem, const image::Still& stil
             noise += std::pow(reflectance * traced.irradiance[i].standardError[c], 2.0) / n;
             result.bias += (shown - truth) / n;
             result.mean += truth / n;
+            result.differences.back() += (shown - truth) / 3.0;
+            result.truths.back() += truth / 3.0;
         }
     }
     result.error = std::sqrt(std::max(0.0, squares - noise)) / result.mean;

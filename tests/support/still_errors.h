@@ -21,6 +21,9 @@ struct StillErrors {
     double bias = 0.0;           ///< mean of the difference, likewise
     double standardError = 0.0;  ///< of the reference, likewise; taken off `error`
     double mean = 0.0;           ///< luminance of the channels, cd/m2
+    /// Mean over the channels of difference and truth at each point, cd/m2.
+    std::vector<double> differences;
+    std::vector<double> truths;
 };
 /// Light reflected at these points in a still of one sample a pixel, against `paths` paths for each.
 StillErrors compareStill(const solve::Problem& problem, const image::Still& still, const StillPoints& points,

@@ -27,7 +27,7 @@ namespace {
 constexpr unsigned kFewestRays = 8;
 constexpr unsigned kMostRays = 4096;
 /// A still needs no finer solution: gathering makes its light several times more exact.
-constexpr double kDefaultError = 0.05;
+constexpr double kDefaultError = 0.02;
 
 struct RenderArguments {
     cli::SceneArguments scene;
@@ -82,7 +82,7 @@ image::Still take(const RenderArguments& arguments, const cli::Solved& solved) {
     options.height = static_cast<std::uint32_t>(arguments.size.height);
     options.samples = static_cast<unsigned>(arguments.look.samples);
     options.rays.weak = arguments.rays;
-    options.rays.strong = arguments.rays + arguments.rays / 2;
+    options.rays.strong = arguments.rays + arguments.rays / 3;
     options.rays.sky = options.rays.strong;
     options.seed = problem.options.seed;
     cli::Progress progress(stderr, cli::chooseStyle(stderr, arguments.output.quiet));
@@ -134,8 +134,8 @@ void addRenderOptions(CLI::App& app, const std::shared_ptr<RenderArguments>& arg
            [arguments](const std::string& text) {
                arguments->rays = cli::parseCountOption("--shadow-rays", text, kFewestRays, kMostRays);
            },
-           "Shadow rays for each point to all weak sources together; a lamp gets up to half as many more. "
-           "Four times as many halve the noise of soft shadows at least; 64 by default.")
+           "Shadow rays for each point to all weak sources together; a lamp gets up to a third more. "
+           "Four times as many halve the noise of soft shadows at least; 96 by default.")
         ->type_name("N")
         ->group("Picture");
     addToneOptions(app, arguments->look);
