@@ -30,7 +30,7 @@ constexpr double kCurvedGap = 6.0;
 constexpr float kFitError = 4e-4f;
 constexpr double kNearGap = 1.5;
 /// Sources that bring more than this part of the irradiance have shadow rays of their own.
-constexpr float kStrong = 0.02f;
+constexpr float kStrong = 0.04f;
 /// Elements darker than this part of the scene's mean are as exact as if they were no darker.
 constexpr float kDarkest = 0.03f;
 

@@ -16,7 +16,8 @@ namespace {
 using base::Vec2d;
 
 /// Rays to a strong source before it is known whether its shadow's edge is near.
-constexpr unsigned kPilotRays = 16;
+constexpr unsigned kFewestPilots = 4;
+constexpr unsigned kMostPilots = 16;
 constexpr unsigned kLeastWeakRays = 16;
 /// A point of a weak source counts at most this many times as much as the source's mean: what touches the
 /// receiver would else outweigh all others where a single ray meets it.
@@ -290,7 +291,7 @@ Rgb PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, 
         const double share =
             bundle.factor * static_cast<double>(sources.strong[bundle.source].brightness) / total;
         bundle.most = static_cast<unsigned>(std::lround(budget_.strong * std::sqrt(share)));
-        aimStrong(sources, point, bundle, std::min(std::max(8u, bundle.most), kPilotRays));
+        aimStrong(sources, point, bundle, std::clamp(bundle.most / 2, kFewestPilots, kMostPilots));
     }
     aimWeak(sources, point, weak / total);
     trace();

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/scene/builders.h"
@@ -26,8 +27,9 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-nlohmann::ordered_json run(const Case& one, double error, unsigned rays, unsigned strong, std::uint32_t width,
-                           std::uint32_t height, std::uint64_t paths, unsigned samples, std::size_t worst) {
+nlohmann::ordered_json run(const Case& one, double error, unsigned rays, unsigned strong, unsigned against,
+                           std::uint32_t width, std::uint32_t height, std::uint64_t paths, unsigned samples,
+                           std::size_t worst) {
     const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene(one.scene));
     solve::Options options;
     options.error = error;
@@ -49,6 +51,25 @@ nlohmann::ordered_json run(const Case& one, double error, unsigned rays, unsigne
     const double gathering = secondsSince(start);
     still.samples = 1;
     const image::Still plain = samples == 1 ? picture : image::takeStill(solver.problem(), *camera, still);
+    if (against > 0) {
+        image::StillOptions many = still;
+        many.rays = {against, against, against};
+        const image::Still smooth = image::takeStill(solver.problem(), *camera, many);
+        double squares = 0.0;
+        double mean = 0.0;
+        for (std::size_t i = 0; i < plain.luminance.size(); ++i) {
+            if (plain.object[i / 3] == smooth.object[i / 3] && plain.irradiance[i] > 0.0f) {
+                // Reflected light only: what emits would hide the noise.
+                const float part = glm::unpackHalf1x16(plain.albedo[i]);
+                squares +=
+                    std::pow(static_cast<double>(part * (plain.irradiance[i] - smooth.irradiance[i])), 2.0);
+                mean += static_cast<double>(part * smooth.irradiance[i]);
+            }
+        }
+        const auto n = static_cast<double>(plain.luminance.size());
+        fmt::print("  noise {:.2f} % against {} rays\n", 100.0 * std::sqrt(squares / n) / (mean / n),
+                   against);
+    }
     const test::StillPoints points = test::findStillPoints(solver.problem(), *camera, still, one.step);
     start = Clock::now();
     const test::StillErrors errors = test::compareStill(solver.problem(), plain, points, paths);
@@ -97,6 +118,7 @@ int main(int argc, char** argv) {
     double error = 0.02;
     unsigned rays = image::GatherRays{}.weak;
     unsigned strong = 0;
+    unsigned against = 0;
     unsigned samples = 8;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
@@ -107,6 +129,7 @@ int main(int argc, char** argv) {
     app.add_option("--error", error, "Of the solution.");
     app.add_option("--shadow-rays", rays, "As in render.");
     app.add_option("--lamp-rays", strong, "Shadow rays to a strong source; by default a third more.");
+    app.add_option("--noise-against", against, "Also the noise, against as many rays to each source.");
     app.add_option("--samples", samples, "As in render.");
     app.add_option("--width", width);
     app.add_option("--height", height);
@@ -119,7 +142,7 @@ int main(int argc, char** argv) {
     nlohmann::ordered_json results = nlohmann::json::array();
     for (const Case& one : cases) {
         if (scenes.empty() || std::find(scenes.begin(), scenes.end(), one.scene) != scenes.end()) {
-            results.push_back(run(one, error, rays, strong, width, height, paths, samples, worst));
+            results.push_back(run(one, error, rays, strong, against, width, height, paths, samples, worst));
         }
     }
     if (!json.empty()) {
