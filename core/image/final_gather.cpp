@@ -85,8 +85,8 @@ bool differ(const Middle& a, const Middle& b) {
 /// The tiles of one column, from top to bottom, with the sources that they have in common.
 class Column {
   public:
-    Column(const solve::Problem& problem, const GatherRays& rays)
-        : finder_(problem), gather_(problem, rays) {}
+    Column(const solve::Problem& problem, SourcePoints& points, const GatherRays& rays)
+        : finder_(problem, points), gather_(problem, rays) {}
 
     void light(std::vector<Wanted>& wanted, std::uint32_t row) {
         // Relief and plain points of a leaf have different sources; a leaf has one material.
@@ -147,7 +147,8 @@ class StillMaker {
         : problem_(problem),
           options_(options),
           callbacks_(callbacks),
-          lens_(camera, options.width, options.height) {
+          lens_(camera, options.width, options.height),
+          points_(problem.hierarchy) {
         const std::size_t pixels = static_cast<std::size_t>(options.width) * options.height;
         still_.width = options.width;
         still_.height = options.height;
@@ -157,7 +158,7 @@ class StillMaker {
         still_.normal.resize(3 * pixels);
         still_.object.resize(pixels);
         for (std::uint32_t x = 0; x < options.width; x += kTile) {
-            columns_.emplace_back(problem, options.rays);
+            columns_.emplace_back(problem, points_, options.rays);
         }
     }
 
@@ -402,6 +403,7 @@ class StillMaker {
     const StillCallbacks& callbacks_;
     Lens lens_;
     Still still_;
+    SourcePoints points_;
     std::vector<Column> columns_;
     std::array<Strip, 3> strips_;
     std::atomic<bool> isStopped_{false};

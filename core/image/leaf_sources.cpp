@@ -29,6 +29,9 @@ constexpr double kCurvedGap = 6.0;
 /// point, as is one of a source nearer than this many radii of the receiver.
 constexpr float kFitError = 4e-4f;
 constexpr double kNearGap = 1.5;
+/// Sources farther away than this many times both radii together are integrated by their cubature points:
+/// relative error below 1e-4.
+constexpr double kFar = 4.0;
 /// Sources that bring more than this part of the irradiance have shadow rays of their own.
 constexpr float kStrong = 0.04f;
 /// Elements darker than this part of the scene's mean are as exact as if they were no darker.
@@ -189,6 +192,62 @@ double exposedShareAt(const hierarchy::Hierarchy& hierarchy, NodeId source, cons
         .share;
 }
 
+namespace {
+
+// Factors of a source at the eight points of a receiver that is far from it.
+Lanes farFactors(const transport::ElementPoints& receiver, const transport::ElementPoints& source) {
+    constexpr int kCubaturePoints = 4;
+    Lanes sum = base::splat(0.0);
+    for (int j = 0; j < kCubaturePoints; ++j) {
+        const Lanes3 to = {source.position.x[j] - receiver.position.x,
+                           source.position.y[j] - receiver.position.y,
+                           source.position.z[j] - receiver.position.z};
+        const Lanes r2 = base::dot(to, to);
+        const Lanes here = base::maxLanes(base::dot(receiver.normal, to), base::splat(0.0));
+        const Lanes there = base::maxLanes(
+            -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z),
+            base::splat(0.0));
+        sum += source.weight[j] * here * there / (base::kPi * r2 * r2);
+    }
+    return source.area * sum;
+}
+
+// Whether the horizon of a curved receiver passes over a source somewhere on it: the factor has a kink there.
+bool crossesHorizon(const transport::ElementPoints& receiver, const Vec3d& center, double radius) {
+    double least = 1e300;
+    double most = -1e300;
+    for (int i = 0; i < kLanes; ++i) {
+        const double height = glm::dot(lane(receiver.normal, i), center - lane(receiver.position, i));
+        least = std::min(least, height);
+        most = std::max(most, height);
+    }
+    return !receiver.isFlat && least < radius && most > -radius;
+}
+
+}  // namespace
+
+SourcePoints::SourcePoints(const hierarchy::Hierarchy& hierarchy)
+    : hierarchy_(hierarchy), points_(hierarchy.nodeCount()) {}
+
+SourcePoints::~SourcePoints() {
+    for (const auto& points : points_) {
+        delete points.load();
+    }
+}
+
+const transport::ElementPoints& SourcePoints::of(NodeId element) {
+    std::atomic<const transport::ElementPoints*>& place = points_[base::index(element)];
+    if (const transport::ElementPoints* known = place.load(std::memory_order_acquire)) {
+        return *known;
+    }
+    auto made =
+        std::make_unique<const transport::ElementPoints>(transport::makeElementPoints(hierarchy_, element));
+    const transport::ElementPoints* before = nullptr;
+    // Another thread may have been faster, with the same.
+    return place.compare_exchange_strong(before, made.get(), std::memory_order_acq_rel) ? *made.release()
+                                                                                        : *before;
+}
+
 /// A leaf whose sources are looked for.
 struct SourceFinder::Search {
     LeafSources found;
@@ -206,7 +265,7 @@ struct SourceFinder::Search {
         const float missed = found.fit.residual(factors, source.factor) * source.brightness;
         if (points != nullptr && (isNear || isExact || missed > kFitError * reference)) {
             source.near = static_cast<std::int32_t>(found.nearPoints.size());
-            found.nearPoints.push_back(*points);
+            found.nearPoints.push_back(points);
         }
         if (!isOpen) {
             mixed.push_back(source);
@@ -306,8 +365,10 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
         return;
     }
     const double distance = glm::distance(Vec3d(shape.center), receiver.center);
-    const transport::ElementPoints points = transport::makeElementPoints(h_, source);
-    Lanes factors = transport::computePointFactors(receiver.position, receiver.normal, points);
+    const transport::ElementPoints& points = points_.of(source);
+    Lanes factors = distance > kFar * (receiver.radius + points.radius)
+                        ? farFactors(receiver, points)
+                        : transport::computePointFactors(receiver.position, receiver.normal, points);
     const bool isPartlyHidden = transport::isPartlyHidden(shape);
     const hierarchy::Light& light = h_.light(source);
     const auto radius = toDouble(shape.radius);
@@ -334,7 +395,9 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
     kept.visibility = visibility;
     kept.radiosity = light.radiosity;
     kept.isPartlyHidden = isPartlyHidden;
-    search.keep(kept, factors, &points, isOpen, distance < kNearGap * receiver.radius + radius);
+    search.keep(kept, factors, &points, isOpen,
+                distance < kNearGap * receiver.radius + radius ||
+                    crossesHorizon(receiver, Vec3d(shape.center), radius));
 }
 
 LeafSources SourceFinder::find(NodeId leaf, bool isExact) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -82,15 +84,33 @@ struct LeafSources {
     std::vector<Source> strong;
     /// All others, in the order of their direction, so that neighbours share what hides them.
     std::vector<Source> weak;
-    std::vector<transport::ElementPoints> nearPoints;
+    std::vector<const transport::ElementPoints*> nearPoints;
     /// Lights without area and the sky.
     std::vector<NodeId> lights;
+};
+
+/// What kernels see of the elements that light comes from: made when first asked for, 1 kB each, for any
+/// number of threads.
+class SourcePoints {
+  public:
+    explicit SourcePoints(const hierarchy::Hierarchy& hierarchy);
+    ~SourcePoints();
+    SourcePoints(const SourcePoints&) = delete;
+    SourcePoints& operator=(const SourcePoints&) = delete;
+
+    const transport::ElementPoints& of(NodeId element);
+
+  private:
+    const hierarchy::Hierarchy& hierarchy_;
+    std::vector<std::atomic<const transport::ElementPoints*>> points_;
 };
 
 /// Makes them, and keeps what several elements ask for. Not for several threads at once.
 class SourceFinder {
   public:
-    explicit SourceFinder(const solve::Problem& problem) : problem_(problem), h_(problem.hierarchy) {}
+    /// Keeps references to both.
+    SourceFinder(const solve::Problem& problem, SourcePoints& points)
+        : problem_(problem), h_(problem.hierarchy), points_(points) {}
 
     /// Sources of a leaf. `isExact`: no smooth functions, as points will have normals of their own.
     LeafSources find(NodeId leaf, bool isExact);
@@ -104,6 +124,7 @@ class SourceFinder {
 
     const solve::Problem& problem_;
     const hierarchy::Hierarchy& h_;
+    SourcePoints& points_;
     std::unordered_map<NodeId, std::unique_ptr<transport::ClusterPoints>> clusterPoints_;
 };
 

@@ -58,7 +58,7 @@ void PixelGather::computeFactors(const LeafSources& sources, std::span<const Pix
         n.z.set(i, p.shading.z);
     }
     for (std::size_t j = 0; j < sources.nearPoints.size(); ++j) {
-        nearFactors_[j] = transport::computePointFactors(x, n, sources.nearPoints[j]);
+        nearFactors_[j] = transport::computePointFactors(x, n, *sources.nearPoints[j]);
     }
     const auto hide = [&](const std::vector<Source>& group) {
         for (const Source& source : group) {
