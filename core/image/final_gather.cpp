@@ -89,7 +89,6 @@ class Column {
         : finder_(problem, points), gather_(problem, rays) {}
 
     void light(std::vector<Wanted>& wanted, std::uint32_t row) {
-        // Relief and plain points of a leaf have different sources; a leaf has one material.
         std::stable_sort(wanted.begin(), wanted.end(),
                          [](const Wanted& a, const Wanted& b) { return a.seen->leaf < b.seen->leaf; });
         std::array<PixelPoint, PixelGather::kPoints> points;
@@ -128,7 +127,7 @@ class Column {
     const LeafSources& sourcesOf(const Seen& seen, std::uint32_t row) {
         auto found = leaves_.find(seen.leaf);
         if (found == leaves_.end()) {
-            found = leaves_.emplace(seen.leaf, Kept{finder_.find(seen.leaf, seen.hasRelief), row}).first;
+            found = leaves_.emplace(seen.leaf, Kept{finder_.find(seen.leaf), row}).first;
         }
         found->second.row = row;
         return found->second.sources;

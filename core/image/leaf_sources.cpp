@@ -25,13 +25,11 @@ constexpr float kOpenCluster = 4e-3f;
 constexpr double kClusterGap = 1.5;
 /// A curved source is opened where it is nearer than this many of its radii.
 constexpr double kCurvedGap = 6.0;
-/// A factor that a quadratic function misses by more than this part of the irradiance is integrated at every
-/// point, as is one of a source nearer than this many radii of the receiver.
-constexpr float kFitError = 4e-4f;
-constexpr double kNearGap = 1.5;
-/// Sources farther away than this many times both radii together are integrated by their cubature points:
-/// relative error below 1e-4.
-constexpr double kFar = 4.0;
+/// The exposed part of a source nearer than so many radii is found anew at every point.
+constexpr double kNearGap = 2.0;
+/// Sources farther away from all points than this many times their radius are integrated by their cubature
+/// points: relative error below 1e-3.
+constexpr double kFar = 5.0;
 /// Sources that bring more than this part of the irradiance have shadow rays of their own.
 constexpr float kStrong = 0.04f;
 /// Elements darker than this part of the scene's mean are as exact as if they were no darker.
@@ -139,11 +137,11 @@ TangentFit::TangentFit(const transport::ElementPoints& element) : middle_(elemen
     across_ = across / widest;
     std::array<std::array<double, kTerms>, kTerms> normalMatrix{};
     for (std::size_t i = 0; i < kLanes; ++i) {
-        terms_[i] = termsAt(lane(element.position, static_cast<int>(i)));
+        const Terms terms = termsAt(lane(element.position, static_cast<int>(i)));
         for (std::size_t k = 0; k < kTerms; ++k) {
-            solution_[k][i] = toDouble(terms_[i][k]);
+            solution_[k][i] = toDouble(terms[k]);
             for (std::size_t l = 0; l < kTerms; ++l) {
-                normalMatrix[k][l] += toDouble(terms_[i][k]) * toDouble(terms_[i][l]);
+                normalMatrix[k][l] += toDouble(terms[k]) * toDouble(terms[l]);
             }
         }
     }
@@ -172,15 +170,6 @@ Terms TangentFit::fit(const Lanes& values) const {
     return result;
 }
 
-float TangentFit::residual(const Lanes& values, const Terms& coefficients) const {
-    float most = 0.0f;
-    for (int i = 0; i < kLanes; ++i) {
-        const float fitted = evaluate(coefficients, terms_[static_cast<std::size_t>(i)]);
-        most = std::max(most, std::abs(fitted - static_cast<float>(values[i])));
-    }
-    return most;
-}
-
 double exposedShareAt(const hierarchy::Hierarchy& hierarchy, NodeId source, const Vec3d& x, const Vec3d& n) {
     return transport::findExposedPart(hierarchy, source,
                                       [&](const transport::SurfaceSample& p) {
@@ -194,16 +183,16 @@ double exposedShareAt(const hierarchy::Hierarchy& hierarchy, NodeId source, cons
 
 namespace {
 
-// Factors of a source at the eight points of a receiver that is far from it.
-Lanes farFactors(const transport::ElementPoints& receiver, const transport::ElementPoints& source) {
+// By the source's cubature points, for points that are far from it.
+FLUXWALK_INLINE Lanes farFactors(const Lanes3& x, const Lanes3& normal,
+                                 const transport::ElementPoints& source) {
     constexpr int kCubaturePoints = 4;
     Lanes sum = base::splat(0.0);
     for (int j = 0; j < kCubaturePoints; ++j) {
-        const Lanes3 to = {source.position.x[j] - receiver.position.x,
-                           source.position.y[j] - receiver.position.y,
-                           source.position.z[j] - receiver.position.z};
+        const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
+                           source.position.z[j] - x.z};
         const Lanes r2 = base::dot(to, to);
-        const Lanes here = base::maxLanes(base::dot(receiver.normal, to), base::splat(0.0));
+        const Lanes here = base::maxLanes(base::dot(normal, to), base::splat(0.0));
         const Lanes there = base::maxLanes(
             -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z),
             base::splat(0.0));
@@ -212,19 +201,39 @@ Lanes farFactors(const transport::ElementPoints& receiver, const transport::Elem
     return source.area * sum;
 }
 
-// Whether the horizon of a curved receiver passes over a source somewhere on it: the factor has a kink there.
-bool crossesHorizon(const transport::ElementPoints& receiver, const Vec3d& center, double radius) {
-    double least = 1e300;
-    double most = -1e300;
+[[gnu::target("avx2")]] Lanes farFactorsAvx2(const Lanes3& x, const Lanes3& normal,
+                                             const transport::ElementPoints& source) {
+    return farFactors(x, normal, source);
+}
+
+Lanes farFactorsBaseline(const Lanes3& x, const Lanes3& normal, const transport::ElementPoints& source) {
+    return farFactors(x, normal, source);
+}
+
+bool hasAvx2() {
+    static const bool kHas = __builtin_cpu_supports("avx2") != 0;
+    return kHas;
+}
+
+bool isFar(const Lanes3& x, const transport::ElementPoints& source) {
+    const double far = kFar * source.radius;
     for (int i = 0; i < kLanes; ++i) {
-        const double height = glm::dot(lane(receiver.normal, i), center - lane(receiver.position, i));
-        least = std::min(least, height);
-        most = std::max(most, height);
+        const Vec3d d = lane(x, i) - source.center;
+        if (!(glm::dot(d, d) > far * far)) {
+            return false;
+        }
     }
-    return !receiver.isFlat && least < radius && most > -radius;
+    return true;
 }
 
 }  // namespace
+
+Lanes computeFactors(const Lanes3& x, const Lanes3& normal, const transport::ElementPoints& source) {
+    if (!isFar(x, source)) {
+        return transport::computePointFactors(x, normal, source);
+    }
+    return hasAvx2() ? farFactorsAvx2(x, normal, source) : farFactorsBaseline(x, normal, source);
+}
 
 SourcePoints::SourcePoints(const hierarchy::Hierarchy& hierarchy)
     : hierarchy_(hierarchy), points_(hierarchy.nodeCount()) {}
@@ -253,31 +262,13 @@ struct SourceFinder::Search {
     LeafSources found;
     transport::ElementPoints receiver;
     float reference = 0.0f;  ///< lux, that thresholds are parts of
-    bool isExact = false;
     std::vector<Source> mixed;
 
     // Keeps a source with its factors at the receiver's points.
-    void keep(Source source, const Lanes& factors, const transport::ElementPoints* points, bool isOpen,
-              bool isNear) {
+    void keep(Source source, const Lanes& factors, bool isOpen) {
         source.brightness = base::channelMean(source.radiosity);
         source.most = largestLane(factors) * source.brightness;
-        source.factor = found.fit.fit(factors);
-        const float missed = found.fit.residual(factors, source.factor) * source.brightness;
-        if (points != nullptr && (isNear || isExact || missed > kFitError * reference)) {
-            source.near = static_cast<std::int32_t>(found.nearPoints.size());
-            found.nearPoints.push_back(points);
-        }
-        if (!isOpen) {
-            mixed.push_back(source);
-        } else if (source.near >= 0) {
-            found.openNear.push_back(source);
-        } else {
-            for (int c = 0; c < 3; ++c) {
-                for (std::size_t k = 0; k < kTerms; ++k) {
-                    found.open[static_cast<std::size_t>(c)][k] += source.factor[k] * source.radiosity[c];
-                }
-            }
-        }
+        (isOpen ? found.open : mixed).push_back(source);
     }
 };
 
@@ -313,7 +304,7 @@ void SourceFinder::addCluster(Search& search, NodeId source, bool isOpen, float 
     const bool isFar = shape.area > 0.0f && distance > kClusterGap * radius;
     const double upper =
         isFar ? toDouble(shape.exposedArea()) / (base::kPi * (distance - radius) * (distance - radius)) : 1.0;
-    if (!isFar || search.isExact ||
+    if (!isFar ||
         static_cast<float>(upper) * base::channelMean(light.radiosity) > kOpenCluster * search.reference) {
         for (unsigned c = 0; c < 2; ++c) {
             add(search, h_.child(source, c), isOpen, visibility);
@@ -355,7 +346,8 @@ void SourceFinder::addCluster(Search& search, NodeId source, bool isOpen, float 
     for (int i = 0; i < kLanes; ++i) {
         values.set(i, factors[static_cast<std::size_t>(i)]);
     }
-    search.keep(kept, values, nullptr, isOpen, false);
+    kept.smooth = search.found.fit.fit(values);
+    search.keep(kept, values, isOpen);
 }
 
 void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float visibility) {
@@ -366,9 +358,7 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
     }
     const double distance = glm::distance(Vec3d(shape.center), receiver.center);
     const transport::ElementPoints& points = points_.of(source);
-    Lanes factors = distance > kFar * (receiver.radius + points.radius)
-                        ? farFactors(receiver, points)
-                        : transport::computePointFactors(receiver.position, receiver.normal, points);
+    Lanes factors = computeFactors(receiver.position, receiver.normal, points);
     const bool isPartlyHidden = transport::isPartlyHidden(shape);
     const hierarchy::Light& light = h_.light(source);
     const auto radius = toDouble(shape.radius);
@@ -384,26 +374,26 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
     if (!(largestLane(factors) > 0.0f) || light.radiosity == Rgb(0.0f)) {
         return;
     }
-    if (isPartlyHidden) {
-        for (int i = 0; i < kLanes; ++i) {
-            factors.set(i, factors[i] * exposedShareAt(h_, source, lane(receiver.position, i),
-                                                       lane(receiver.normal, i)));
-        }
-    }
     Source kept;
     kept.node = source;
     kept.visibility = visibility;
     kept.radiosity = light.radiosity;
+    kept.points = &points;
     kept.isPartlyHidden = isPartlyHidden;
-    search.keep(kept, factors, &points, isOpen,
-                distance < kNearGap * receiver.radius + radius ||
-                    crossesHorizon(receiver, Vec3d(shape.center), radius));
+    if (isPartlyHidden) {
+        Lanes shares;
+        for (int i = 0; i < kLanes; ++i) {
+            shares.set(i, exposedShareAt(h_, source, lane(receiver.position, i), lane(receiver.normal, i)));
+        }
+        kept.smooth = search.found.fit.fit(shares);
+        kept.isHiddenNear = distance < receiver.radius + kNearGap * radius;
+    }
+    search.keep(kept, factors, isOpen);
 }
 
-LeafSources SourceFinder::find(NodeId leaf, bool isExact) {
+LeafSources SourceFinder::find(NodeId leaf) {
     Search search;
     search.found.leaf = leaf;
-    search.isExact = isExact;
     search.receiver = transport::makeElementPoints(h_, leaf);
     search.found.fit = TangentFit(search.receiver);
     search.reference = std::max({base::channelMean(h_.light(leaf).irradiance),

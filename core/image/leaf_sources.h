@@ -10,8 +10,8 @@
 #include "core/transport/cluster_points.h"
 #include "core/transport/element_points.h"
 
-/// What lights an element, prepared once for all pixels that see it: the links of the element and of all that
-/// it is part of name the sources (ALGORITHMS 1.14), and over the element their form factors are smooth.
+/// What lights an element, found once for all pixels that see it: the links of the element and of all that it
+/// is part of name the sources (ALGORITHMS 1.14).
 namespace fluxwalk::image {
 
 using base::NodeId;
@@ -32,15 +32,12 @@ class TangentFit {
     Terms termsAt(const Vec3d& position) const;
     /// Coefficients for values at the eight points.
     Terms fit(const base::Lanes& values) const;
-    /// Largest difference at the eight points between the values and what the coefficients make of them.
-    float residual(const base::Lanes& values, const Terms& coefficients) const;
 
   private:
     Vec3d middle_{};
     Vec3d along_{};   ///< unit tangent over the element's half length that way
     Vec3d across_{};  ///< likewise
     std::array<std::array<double, base::kLanes>, kTerms> solution_{};
-    std::array<Terms, base::kLanes> terms_{};
 };
 
 /// Value of a fitted function.
@@ -61,10 +58,13 @@ struct Source {
     float most = 0.0f;
     /// Of its unoccluded irradiance the part that the solve saw arrive at the element.
     float visibility = 1.0f;
-    /// Form factor over the element, where a function of place can say it; `near` otherwise.
-    Terms factor{};
-    /// Index into LeafSources::nearPoints of what is to be integrated anew at every point; none: -1.
-    std::int32_t near = -1;
+    /// What kernels see of an element; nullptr of a cluster.
+    const transport::ElementPoints* points = nullptr;
+    /// A cluster's form factor over the receiving element; of an element that is partly hidden, the part of
+    /// its kernel that its exposed cells have.
+    Terms smooth{};
+    /// That part is to be found anew at every point, since the element is near.
+    bool isHiddenNear = false;
     bool isPartlyHidden = false;
 };
 
@@ -76,15 +76,12 @@ transport::ClusterSampler::Place samplePoint(const hierarchy::Hierarchy& hierarc
 struct LeafSources {
     NodeId leaf = NodeId::none;
     TangentFit fit;
-    /// Unoccluded irradiance in lux of all sources that surely nothing hides and that vary smoothly.
-    std::array<Terms, 3> open{};
-    /// Sources that surely nothing hides, to be integrated at every point.
-    std::vector<Source> openNear;
+    /// Sources that surely nothing hides.
+    std::vector<Source> open;
     /// Sources with shadow rays of their own: those that bring most.
     std::vector<Source> strong;
     /// All others, in the order of their direction, so that neighbours share what hides them.
     std::vector<Source> weak;
-    std::vector<const transport::ElementPoints*> nearPoints;
     /// Lights without area and the sky.
     std::vector<NodeId> lights;
 };
@@ -112,8 +109,7 @@ class SourceFinder {
     SourceFinder(const solve::Problem& problem, SourcePoints& points)
         : problem_(problem), h_(problem.hierarchy), points_(points) {}
 
-    /// Sources of a leaf. `isExact`: no smooth functions, as points will have normals of their own.
-    LeafSources find(NodeId leaf, bool isExact);
+    LeafSources find(NodeId leaf);
 
   private:
     struct Search;
@@ -127,6 +123,10 @@ class SourceFinder {
     SourcePoints& points_;
     std::unordered_map<NodeId, std::unique_ptr<transport::ClusterPoints>> clusterPoints_;
 };
+
+/// Form factors of an element's source at eight points, unoccluded, as if all of it were exposed.
+base::Lanes computeFactors(const base::Lanes3& x, const base::Lanes3& normal,
+                           const transport::ElementPoints& source);
 
 /// Part of a source's kernel at a point that comes from its exposed cells.
 double exposedShareAt(const hierarchy::Hierarchy& hierarchy, NodeId source, const Vec3d& x, const Vec3d& n);

@@ -41,55 +41,48 @@ Vec2d shiftOf(std::uint64_t key) {
 
 }  // namespace
 
-void PixelGather::computeFactors(const LeafSources& sources, std::span<const PixelPoint> points) {
-    nearFactors_.resize(sources.nearPoints.size());
-    if (sources.nearPoints.empty()) {
-        return;
-    }
+void PixelGather::findFactors(const LeafSources& sources, std::span<const PixelPoint> points) {
     base::Lanes3 x;
     base::Lanes3 n;
-    for (int i = 0; i < base::kLanes; ++i) {
-        const PixelPoint& p = points[std::min(static_cast<std::size_t>(i), points.size() - 1)];
-        x.x.set(i, p.position.x);
-        x.y.set(i, p.position.y);
-        x.z.set(i, p.position.z);
-        n.x.set(i, p.shading.x);
-        n.y.set(i, p.shading.y);
-        n.z.set(i, p.shading.z);
+    std::array<Terms, kPoints> terms{};
+    for (std::size_t i = 0; i < kPoints; ++i) {
+        const PixelPoint& p = points[std::min(i, points.size() - 1)];
+        const int lane = static_cast<int>(i);
+        x.x.set(lane, p.position.x);
+        x.y.set(lane, p.position.y);
+        x.z.set(lane, p.position.z);
+        n.x.set(lane, p.shading.x);
+        n.y.set(lane, p.shading.y);
+        n.z.set(lane, p.shading.z);
+        terms[i] = sources.fit.termsAt(p.position);
     }
-    for (std::size_t j = 0; j < sources.nearPoints.size(); ++j) {
-        nearFactors_[j] = transport::computePointFactors(x, n, *sources.nearPoints[j]);
-    }
-    const auto hide = [&](const std::vector<Source>& group) {
-        for (const Source& source : group) {
-            if (source.near < 0 || !source.isPartlyHidden) {
-                continue;
-            }
-            base::Lanes& factors = nearFactors_[static_cast<std::size_t>(source.near)];
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                const int at = static_cast<int>(i);
-                if (factors[at] > 0.0) {
-                    factors.set(at, factors[at] * exposedShareAt(problem_.hierarchy, source.node,
-                                                                 points[i].position, points[i].shading));
+    factors_.clear();
+    for (const std::vector<Source>* group : {&sources.open, &sources.strong, &sources.weak}) {
+        for (const Source& source : *group) {
+            base::Lanes factors =
+                source.points != nullptr ? computeFactors(x, n, *source.points) : base::splat(1.0);
+            if (source.points == nullptr || source.isPartlyHidden) {
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const int lane = static_cast<int>(i);
+                    const double part =
+                        source.isHiddenNear
+                            ? exposedShareAt(problem_.hierarchy, source.node, points[i].position,
+                                             points[i].shading)
+                            : static_cast<double>(atLeastZero(evaluate(source.smooth, terms[i])));
+                    factors.set(lane,
+                                factors[lane] * (source.points != nullptr ? std::min(1.0, part) : part));
                 }
             }
+            factors_.push_back(factors);
         }
-    };
-    hide(sources.openNear);
-    hide(sources.strong);
-    hide(sources.weak);
-}
-
-double PixelGather::factorAt(const Source& source, const Terms& terms, std::size_t point) const {
-    return source.near >= 0 ? nearFactors_[static_cast<std::size_t>(source.near)][static_cast<int>(point)]
-                            : static_cast<double>(atLeastZero(evaluate(source.factor, terms)));
+    }
 }
 
 void PixelGather::gather(const LeafSources& sources, std::span<const PixelPoint> points,
                          std::span<Rgb> irradiance) {
     FLUXWALK_CHECK_LE(points.size(), kPoints);
     FLUXWALK_CHECK_EQ(points.size(), irradiance.size());
-    computeFactors(sources, points);
+    findFactors(sources, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
         irradiance[i] = gatherOne(sources, points[i], i);
     }
@@ -260,14 +253,13 @@ Vec3d PixelGather::addLights(const LeafSources& sources, const PixelPoint& point
 }
 
 Rgb PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index) {
-    const Terms terms = sources.fit.termsAt(point.position);
     Vec3d sum = addLights(sources, point);
-    for (int c = 0; c < 3; ++c) {
-        sum[c] +=
-            static_cast<double>(atLeastZero(evaluate(sources.open[static_cast<std::size_t>(c)], terms)));
-    }
-    for (const Source& source : sources.openNear) {
-        sum += factorAt(source, terms, index) * Vec3d(source.radiosity);
+    const int lane = static_cast<int>(index);
+    const base::Lanes* openFactors = factors_.data();
+    const base::Lanes* strongFactors = openFactors + sources.open.size();
+    const base::Lanes* weakFactors = strongFactors + sources.strong.size();
+    for (std::size_t j = 0; j < sources.open.size(); ++j) {
+        sum += openFactors[j][lane] * Vec3d(sources.open[j].radiosity);
     }
     rays_.clear();
     weights_.clear();
@@ -275,13 +267,12 @@ Rgb PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, 
     weakWeights_.resize(sources.weak.size());
     double weak = 0.0;
     for (std::size_t j = 0; j < sources.weak.size(); ++j) {
-        const Source& source = sources.weak[j];
-        weakWeights_[j] = static_cast<float>(factorAt(source, terms, index)) * source.brightness;
+        weakWeights_[j] = static_cast<float>(weakFactors[j][lane]) * sources.weak[j].brightness;
         weak += static_cast<double>(weakWeights_[j]);
     }
     double total = weak + (sum.x + sum.y + sum.z) / 3.0;
     for (std::size_t j = 0; j < sources.strong.size(); ++j) {
-        const double factor = factorAt(sources.strong[j], terms, index);
+        const double factor = strongFactors[j][lane];
         if (factor > 0.0) {
             total += factor * static_cast<double>(sources.strong[j].brightness);
             bundles_.push_back({j, factor});

@@ -51,8 +51,7 @@ class PixelGather {
         double seen = 0.0;
     };
 
-    void computeFactors(const LeafSources& sources, std::span<const PixelPoint> points);
-    double factorAt(const Source& source, const Terms& terms, std::size_t point) const;
+    void findFactors(const LeafSources& sources, std::span<const PixelPoint> points);
     Rgb gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index);
     void aimStrong(const LeafSources& sources, const PixelPoint& point, Bundle& bundle, unsigned count);
     void aimWeak(const LeafSources& sources, const PixelPoint& point, double share);
@@ -65,8 +64,8 @@ class PixelGather {
     const solve::Problem& problem_;
     GatherRays budget_;
     std::uint64_t rayCount_ = 0;
-    /// Exact factors of LeafSources::nearPoints at the points.
-    std::vector<base::Lanes> nearFactors_;
+    /// Form factors of the sources at the points, unoccluded: the open ones, the strong and the weak.
+    std::vector<base::Lanes> factors_;
     std::vector<Bundle> bundles_;
     std::vector<rays::Ray> rays_;
     std::vector<double> weights_;
