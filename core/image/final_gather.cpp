@@ -26,6 +26,11 @@ constexpr float kContrast = 0.08f;
 /// other's plane is less than this part of their distance.
 constexpr float kSameNormal = 0.98f;
 constexpr float kSamePlane = 0.12f;
+/// Pixels around one over which noise is averaged, the fall of their weights with the square of the distance,
+/// and the differences, as a part of the irradiance, that are taken for noise.
+constexpr int kSmoothReach = 3;
+constexpr float kFall = 0.12f;
+constexpr float kNoise = 0.03f;
 /// Reach in pixels of the light of a pixel's middle.
 constexpr double kReach = 1.25;
 constexpr float kInversePi = static_cast<float>(1.0 / base::kPi);
@@ -38,8 +43,10 @@ struct Middle {
     base::Vec3 normal{};
     base::Vec3 shading{};
     Rgb reflectance{0.0f};
-    Rgb irradiance{0.0f};
-    Rgb luminance{0.0f};
+    NodeId leaf = NodeId::none;
+    PixelLight light;      ///< as gathered
+    Rgb irradiance{0.0f};  ///< with the noise taken off
+    Rgb luminance{0.0f};   ///< emitted, and reflected once the irradiance is known
 };
 
 /// One row of tiles.
@@ -55,13 +62,14 @@ struct Extra {
     bool isLit = false;  ///< its light is known
     Seen seen;
     Rgb sky{0.0f};
+    PixelLight light;
     Rgb irradiance{0.0f};
 };
 
 /// A point whose light is to be gathered.
 struct Wanted {
     const Seen* seen = nullptr;
-    Rgb* irradiance = nullptr;
+    PixelLight* light = nullptr;
 };
 
 bool isSameSurface(const Seen& a, const Middle& b) {
@@ -92,7 +100,7 @@ class Column {
         std::stable_sort(wanted.begin(), wanted.end(),
                          [](const Wanted& a, const Wanted& b) { return a.seen->leaf < b.seen->leaf; });
         std::array<PixelPoint, PixelGather::kPoints> points;
-        std::array<Rgb, PixelGather::kPoints> light{};
+        std::array<PixelLight, PixelGather::kPoints> light{};
         for (std::size_t first = 0; first < wanted.size();) {
             const Seen& seen = *wanted[first].seen;
             std::size_t count = 0;
@@ -103,16 +111,16 @@ class Column {
             }
             gather_.gather(sourcesOf(seen, row), {points.data(), count}, {light.data(), count});
             for (std::size_t i = 0; i < count; ++i) {
-                *wanted[first + i].irradiance = light[i];
+                *wanted[first + i].light = light[i];
             }
             first += count;
             gathers_ += count;
         }
     }
 
-    /// Forgets what the row before did not need.
+    /// Forgets what the rows before did not need.
     void forget(std::uint32_t row) {
-        std::erase_if(leaves_, [row](const auto& entry) { return entry.second.row + 1 < row; });
+        std::erase_if(leaves_, [row](const auto& entry) { return entry.second.row + 2 < row; });
     }
 
     std::uint64_t rays() const { return gather_.rayCount(); }
@@ -168,14 +176,21 @@ class StillMaker {
             strip.index = row;
             strip.middles.assign(static_cast<std::size_t>(options_.width) * kTile, Middle{});
             eachTile([&](std::uint32_t column) { lookAt(column, strip); });
-            // A row is finished when the one below it is known.
+            // Noise is taken off with the rows around known, edges are smoothed with these done.
             if (row > 0) {
-                finishRow(row - 1, rows);
+                smoothRow(row - 1);
             }
-            if (row + 1 == rows) {
-                finishRow(row, rows);
+            if (row > 1) {
+                finishRow(row - 2, rows);
             }
         }
+        if (rows > 1) {
+            smoothRow(rows - 1);
+            finishRow(rows - 2, rows);
+        } else {
+            smoothRow(0);
+        }
+        finishRow(rows - 1, rows);
         for (const Column& column : columns_) {
             still_.rays += column.rays();
             still_.gathers += column.gathers();
@@ -194,6 +209,12 @@ class StillMaker {
                 body(static_cast<std::uint32_t>(i));
             }
         });
+    }
+
+    void smoothRow(std::uint32_t row) {
+        if (!isStopped_) {
+            eachTile([&](std::uint32_t column) { smooth(column, row); });
+        }
     }
 
     void finishRow(std::uint32_t row, std::uint32_t rows) {
@@ -247,6 +268,7 @@ class StillMaker {
                 here = *found;
                 here.point.key = keyOf(tile.left + x, tile.top + y, 0);
                 middle.object = here.object + 1;
+                middle.leaf = here.leaf;
                 middle.hasTexture = here.hasTexture || here.hasRelief;
                 middle.position = base::Vec3(here.point.position);
                 middle.normal = base::Vec3(here.point.normal);
@@ -255,14 +277,51 @@ class StillMaker {
                 // Made whole below.
                 middle.luminance = here.emission * kInversePi;
                 if (here.leaf != NodeId::none && here.reflectance != Rgb(0.0f)) {
-                    wanted.push_back({&here, &middle.irradiance});
+                    wanted.push_back({&here, &middle.light});
                 }
             }
         }
         column.light(wanted, strip.index);
+    }
+
+    // The correction of a pixel's light, averaged over its surroundings on the same element where it differs
+    // by no more than noise does. Elements have corrections of their own.
+    Rgb smoothCorrection(const Middle& middle, std::int64_t x, std::int64_t y) const {
+        const float noise = kNoise * base::channelMean(middle.light.sum());
+        const float own = base::channelMean(middle.light.correction);
+        if (!(noise > 0.0f)) {
+            return middle.light.correction;
+        }
+        Rgb sum(0.0f);
+        float weights = 0.0f;
+        for (int dy = -kSmoothReach; dy <= kSmoothReach; ++dy) {
+            for (int dx = -kSmoothReach; dx <= kSmoothReach; ++dx) {
+                const Middle* other = middleAt(x + dx, y + dy);
+                if (other == nullptr || other->leaf != middle.leaf ||
+                    glm::dot(other->shading, middle.shading) < kSameNormal) {
+                    continue;
+                }
+                const float off = (base::channelMean(other->light.correction) - own) / noise;
+                const auto away = static_cast<float>(dx * dx + dy * dy);
+                const float weight = std::exp(-0.5f * off * off - kFall * away);
+                sum += weight * other->light.correction;
+                weights += weight;
+            }
+        }
+        return sum / weights;
+    }
+
+    void smooth(std::uint32_t columnIndex, std::uint32_t row) {
+        const Tile tile = tileAt(columnIndex, row);
+        Strip& strip = strips_[row % strips_.size()];
         for (std::uint32_t y = 0; y < tile.height; ++y) {
             for (std::uint32_t x = 0; x < tile.width; ++x) {
                 Middle& middle = strip.middles[static_cast<std::size_t>(y) * options_.width + tile.left + x];
+                if (middle.leaf == NodeId::none) {
+                    continue;
+                }
+                middle.irradiance = glm::max(
+                    middle.light.steady + smoothCorrection(middle, tile.left + x, tile.top + y), Rgb(0.0f));
                 middle.luminance += middle.reflectance * middle.irradiance * kInversePi;
             }
         }
@@ -335,10 +394,15 @@ class StillMaker {
         std::vector<Wanted> wanted;
         for (Extra& extra : extras) {
             if (extra.isSeen && !extra.isLit) {
-                wanted.push_back({&extra.seen, &extra.irradiance});
+                wanted.push_back({&extra.seen, &extra.light});
             }
         }
         columns_[columnIndex].light(wanted, row);
+        for (Extra& extra : extras) {
+            if (extra.isSeen && !extra.isLit) {
+                extra.irradiance = extra.light.sum();
+            }
+        }
         for (std::size_t first = 0; first < extras.size(); first += options_.samples) {
             average(tile, std::span(extras).subspan(first, options_.samples));
         }
@@ -404,7 +468,7 @@ class StillMaker {
     Still still_;
     SourcePoints points_;
     std::vector<Column> columns_;
-    std::array<Strip, 3> strips_;
+    std::array<Strip, 4> strips_;
     std::atomic<bool> isStopped_{false};
 };
 

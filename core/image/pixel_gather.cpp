@@ -79,7 +79,7 @@ void PixelGather::findFactors(const LeafSources& sources, std::span<const PixelP
 }
 
 void PixelGather::gather(const LeafSources& sources, std::span<const PixelPoint> points,
-                         std::span<Rgb> irradiance) {
+                         std::span<PixelLight> irradiance) {
     FLUXWALK_CHECK_LE(points.size(), kPoints);
     FLUXWALK_CHECK_EQ(points.size(), irradiance.size());
     findFactors(sources, points);
@@ -164,15 +164,15 @@ void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, d
 
 // What the solve knows of the sources' visibility, corrected by what the rays find of it at this point: where
 // it knows all, as where nothing hides anything, no noise is left.
-Rgb PixelGather::sumWeak(const LeafSources& sources) const {
+PixelLight PixelGather::sumWeak(const LeafSources& sources) const {
     Rgb unoccluded(0.0f);
-    Rgb expected(0.0f);
+    PixelLight result;
     for (std::size_t j = 0; j < weakWeights_.size(); ++j) {
         if (weakWeights_[j] > 0.0f) {
             const Source& source = sources.weak[j];
             const Rgb light = source.radiosity * (weakWeights_[j] / source.brightness);
             unoccluded += light;
-            expected += source.visibility * light;
+            result.steady += source.visibility * light;
         }
     }
     Rgb all(0.0f);
@@ -184,10 +184,10 @@ Rgb PixelGather::sumWeak(const LeafSources& sources) const {
     }
     for (int c = 0; c < 3; ++c) {
         if (all[c] > 0.0f) {
-            expected[c] = atLeastZero(expected[c] + unoccluded[c] * surplus[c] / all[c]);
+            result.correction[c] = unoccluded[c] * surplus[c] / all[c];
         }
     }
-    return expected;
+    return result;
 }
 
 void PixelGather::trace() {
@@ -252,7 +252,7 @@ Vec3d PixelGather::addLights(const LeafSources& sources, const PixelPoint& point
     return sum;
 }
 
-Rgb PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index) {
+PixelLight PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index) {
     Vec3d sum = addLights(sources, point);
     const int lane = static_cast<int>(index);
     const base::Lanes* openFactors = factors_.data();
@@ -286,7 +286,7 @@ Rgb PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, 
     }
     aimWeak(sources, point, weak / total);
     trace();
-    sum += Vec3d(sumWeak(sources));
+    const PixelLight weakLight = sumWeak(sources);
     for (Bundle& bundle : bundles_) {
         count(bundle);
     }
@@ -309,7 +309,7 @@ Rgb PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, 
                                       : static_cast<double>(sources.strong[bundle.source].visibility);
         sum += bundle.factor * visibility * Vec3d(sources.strong[bundle.source].radiosity);
     }
-    return Rgb(sum);
+    return {Rgb(sum) + weakLight.steady, weakLight.correction};
 }
 
 }  // namespace fluxwalk::image

@@ -18,6 +18,16 @@ struct PixelPoint {
     std::uint64_t key = 0;  ///< of what is random about the point
 };
 
+/// Irradiance in lux in two parts, of which one has most of the noise.
+struct PixelLight {
+    Rgb steady{0.0f};
+    /// What rays to weak sources find beside what the solve knows of their visibility; may be negative.
+    /// Smooth over an element but for the shadows of small things, and noisy.
+    Rgb correction{0.0f};
+
+    Rgb sum() const { return glm::max(steady + correction, Rgb(0.0f)); }
+};
+
 struct GatherRays {
     /// Most shadow rays to a source that brings all the light, and to all weak sources together.
     unsigned strong = 128;
@@ -34,7 +44,8 @@ class PixelGather {
     static constexpr std::size_t kPoints = base::kLanes;
 
     /// Irradiance in lux at up to kPoints points of the leaf of `sources`.
-    void gather(const LeafSources& sources, std::span<const PixelPoint> points, std::span<Rgb> irradiance);
+    void gather(const LeafSources& sources, std::span<const PixelPoint> points,
+                std::span<PixelLight> irradiance);
 
     std::uint64_t rayCount() const { return rayCount_; }
 
@@ -52,12 +63,12 @@ class PixelGather {
     };
 
     void findFactors(const LeafSources& sources, std::span<const PixelPoint> points);
-    Rgb gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index);
+    PixelLight gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index);
     void aimStrong(const LeafSources& sources, const PixelPoint& point, Bundle& bundle, unsigned count);
     void aimWeak(const LeafSources& sources, const PixelPoint& point, double share);
     void trace();
     void count(Bundle& bundle) const;
-    Rgb sumWeak(const LeafSources& sources) const;
+    PixelLight sumWeak(const LeafSources& sources) const;
     Vec3d addLights(const LeafSources& sources, const PixelPoint& point);
     Vec3d addSky(NodeId sky, const PixelPoint& point);
 
