@@ -30,7 +30,8 @@ constexpr float kSamePlane = 0.12f;
 /// and the differences, as a part of the irradiance, that are taken for noise.
 constexpr int kSmoothReach = 3;
 constexpr float kFall = 0.12f;
-constexpr float kNoise = 0.03f;
+constexpr float kNoise = 0.03f;  ///< with so many rays to weak sources:
+constexpr float kNoiseRays = 96.0f;
 /// Reach in pixels of the light of a pixel's middle.
 constexpr double kReach = 1.25;
 constexpr float kInversePi = static_cast<float>(1.0 / base::kPi);
@@ -155,7 +156,8 @@ class StillMaker {
           options_(options),
           callbacks_(callbacks),
           lens_(camera, options.width, options.height),
-          points_(problem.hierarchy) {
+          points_(problem.hierarchy),
+          noise_(kNoise * std::sqrt(kNoiseRays / static_cast<float>(options.rays.weak))) {
         const std::size_t pixels = static_cast<std::size_t>(options.width) * options.height;
         still_.width = options.width;
         still_.height = options.height;
@@ -287,7 +289,7 @@ class StillMaker {
     // The correction of a pixel's light, averaged over its surroundings on the same element where it differs
     // by no more than noise does. Elements have corrections of their own.
     Rgb smoothCorrection(const Middle& middle, std::int64_t x, std::int64_t y) const {
-        const float noise = kNoise * base::channelMean(middle.light.sum());
+        const float noise = noise_ * base::channelMean(middle.light.sum());
         const float own = base::channelMean(middle.light.correction);
         if (!(noise > 0.0f)) {
             return middle.light.correction;
@@ -467,6 +469,7 @@ class StillMaker {
     Lens lens_;
     Still still_;
     SourcePoints points_;
+    float noise_;  ///< differences in light that count as noise, relative
     std::vector<Column> columns_;
     std::array<Strip, 4> strips_;
     std::atomic<bool> isStopped_{false};

@@ -78,7 +78,7 @@ TEST(FinalGather, TheFurnaceIsFlat) {
         EXPECT_LE(std::abs(flat.mean), 0.002) << name;
         // What is left is noise of the shadow rays, which falls with their number, and nothing that stays.
         const Flatness fine = measureFurnace(solver->problem(), *scene, 1536);
-        EXPECT_LE(fine.deviation, 0.25 * flat.deviation) << name;
+        EXPECT_LE(fine.deviation, 0.5 * flat.deviation) << name;
         EXPECT_LE(fine.deviation, 0.005) << name;
     }
 }
@@ -102,7 +102,7 @@ TEST(FinalGather, StopsWithWhatIsDone) {
     const auto solver = solveFor(scene, 0.1, 1);
     unsigned asked = 0;
     image::StillCallbacks callbacks;
-    callbacks.shouldStop = [&asked] { return ++asked > 8; };
+    callbacks.shouldStop = [&asked] { return ++asked > 13; };
     std::vector<double> fractions;
     callbacks.progress = [&fractions](double fraction) { fractions.push_back(fraction); };
     const image::Still still =
