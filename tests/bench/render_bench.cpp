@@ -115,7 +115,7 @@ nlohmann::ordered_json run(const Case& one, double error, unsigned rays, unsigne
 int main(int argc, char** argv) {
     CLI::App app("Stills by final gathering against the path tracer.");
     std::vector<std::string> scenes;
-    double error = 0.02;
+    double error = 0.03;
     unsigned rays = image::GatherRays{}.weak;
     unsigned strong = 0;
     unsigned against = 0;

@@ -27,7 +27,7 @@ namespace {
 constexpr unsigned kFewestRays = 8;
 constexpr unsigned kMostRays = 4096;
 /// A still needs no finer solution: gathering makes its light several times more exact.
-constexpr double kDefaultError = 0.02;
+constexpr double kDefaultError = 0.03;
 
 struct RenderArguments {
     cli::SceneArguments scene;
@@ -135,7 +135,7 @@ void addRenderOptions(CLI::App& app, const std::shared_ptr<RenderArguments>& arg
                arguments->rays = cli::parseCountOption("--shadow-rays", text, kFewestRays, kMostRays);
            },
            "Shadow rays for each point to all weak sources together; a lamp gets up to a third more. "
-           "Four times as many halve the noise of soft shadows at least; 96 by default.")
+           "Four times as many halve the noise at least; 96 by default.")
         ->type_name("N")
         ->group("Picture");
     addToneOptions(app, arguments->look);
