@@ -27,7 +27,7 @@ TEST_P(StillPictures, AreAsBefore) {
     still.height = static_cast<std::uint32_t>(testing::kGoldenSize.height);
     const image::Still picture = image::takeStill(solver.problem(), scene->cameras.front(), still);
     testing::expectGolden(app::developStill(picture, app::meterStill(picture), render::ToneCurve::filmic),
-                          std::string("still-") + GetParam());
+                          std::string("still-") + GetParam() + ".png");
 }
 
 INSTANTIATE_TEST_SUITE_P(Golden, StillPictures, ::testing::Values("cornell-box", "gallery"),
