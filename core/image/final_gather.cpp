@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include <glm/gtc/packing.hpp>
 
@@ -355,7 +356,21 @@ class StillMaker {
                 }
             }
         }
-        return false;
+        return hidesSomething(x, y);
+    }
+
+    // Whether a pixel shows something thin that the middles of it and of those around miss.
+    bool hidesSomething(std::uint32_t x, std::uint32_t y) const {
+        constexpr std::array<Vec2d, 4> kProbes{Vec2d(0.125, 0.625), Vec2d(0.375, 0.125), Vec2d(0.625, 0.875),
+                                               Vec2d(0.875, 0.375)};
+        const std::uint32_t object = middleAt(x, y)->object;
+        return std::any_of(kProbes.begin(), kProbes.end(), [&](const Vec2d& probe) {
+            const rays::Ray ray{base::Vec3(lens_.eye()), 0.0f,
+                                base::Vec3(lens_.directionAt(Vec2d(x, y) + probe)),
+                                std::numeric_limits<float>::max()};
+            const auto hit = problem_.rays.closest(ray);
+            return (hit ? base::index(hit->object) + 1 : 0u) != object;
+        });
     }
 
     // Light of the middles around a place, where they lie on the same surface. False where none does.
