@@ -11,7 +11,7 @@
 #include "core/base/check.h"
 #include "core/base/photometry.h"
 #include "core/base/random.h"
-#include "core/image/sight.h"
+#include "core/image/column_gather.h"
 
 namespace fluxwalk::image {
 
@@ -68,12 +68,6 @@ struct Extra {
     Rgb irradiance{0.0f};
 };
 
-/// A point whose light is to be gathered.
-struct Wanted {
-    const Seen* seen = nullptr;
-    PixelLight* light = nullptr;
-};
-
 bool isSameSurface(const Seen& a, const Middle& b) {
     if (a.object + 1 != b.object || glm::dot(base::Vec3(a.point.normal), b.normal) < kSameNormal ||
         glm::dot(base::Vec3(a.point.shading), b.shading) < kSameNormal) {
@@ -91,63 +85,6 @@ bool differ(const Middle& a, const Middle& b) {
     const float y = base::channelMean(b.luminance);
     return std::abs(x - y) > kContrast * std::max(x, y);
 }
-
-/// The tiles of one column, from top to bottom, with the sources that they have in common.
-class Column {
-  public:
-    Column(const solve::Problem& problem, SourcePoints& points, const GatherRays& rays)
-        : finder_(problem, points), gather_(problem, rays) {}
-
-    void light(std::vector<Wanted>& wanted, std::uint32_t row) {
-        std::stable_sort(wanted.begin(), wanted.end(),
-                         [](const Wanted& a, const Wanted& b) { return a.seen->leaf < b.seen->leaf; });
-        std::array<PixelPoint, PixelGather::kPoints> points;
-        std::array<PixelLight, PixelGather::kPoints> light{};
-        for (std::size_t first = 0; first < wanted.size();) {
-            const Seen& seen = *wanted[first].seen;
-            std::size_t count = 0;
-            while (count < points.size() && first + count < wanted.size() &&
-                   wanted[first + count].seen->leaf == seen.leaf) {
-                points[count] = wanted[first + count].seen->point;
-                ++count;
-            }
-            gather_.gather(sourcesOf(seen, row), {points.data(), count}, {light.data(), count});
-            for (std::size_t i = 0; i < count; ++i) {
-                *wanted[first + i].light = light[i];
-            }
-            first += count;
-            gathers_ += count;
-        }
-    }
-
-    /// Forgets what the rows before did not need.
-    void forget(std::uint32_t row) {
-        std::erase_if(leaves_, [row](const auto& entry) { return entry.second.row + 2 < row; });
-    }
-
-    std::uint64_t rays() const { return gather_.rayCount(); }
-    std::uint64_t gathers() const { return gathers_; }
-
-  private:
-    struct Kept {
-        LeafSources sources;
-        std::uint32_t row = 0;
-    };
-
-    const LeafSources& sourcesOf(const Seen& seen, std::uint32_t row) {
-        auto found = leaves_.find(seen.leaf);
-        if (found == leaves_.end()) {
-            found = leaves_.emplace(seen.leaf, Kept{finder_.find(seen.leaf), row}).first;
-        }
-        found->second.row = row;
-        return found->second.sources;
-    }
-
-    SourceFinder finder_;
-    PixelGather gather_;
-    std::unordered_map<NodeId, Kept> leaves_;
-    std::uint64_t gathers_ = 0;
-};
 
 class StillMaker {
   public:
@@ -194,7 +131,7 @@ class StillMaker {
             smoothRow(0);
         }
         finishRow(rows - 1, rows);
-        for (const Column& column : columns_) {
+        for (const ColumnGather& column : columns_) {
             still_.rays += column.rays();
             still_.gathers += column.gathers();
         }
@@ -253,7 +190,7 @@ class StillMaker {
 
     // What the middles of a tile's pixels see, and the light there.
     void lookAt(std::uint32_t columnIndex, Strip& strip) {
-        Column& column = columns_[columnIndex];
+        ColumnGather& column = columns_[columnIndex];
         column.forget(strip.index);
         const Tile tile = tileAt(columnIndex, strip.index);
         std::vector<Seen> seen(static_cast<std::size_t>(tile.width) * tile.height);
@@ -485,7 +422,7 @@ class StillMaker {
     Still still_;
     SourcePoints points_;
     float noise_;  ///< differences in light that count as noise, relative
-    std::vector<Column> columns_;
+    std::vector<ColumnGather> columns_;
     std::array<Strip, 4> strips_;
     std::atomic<bool> isStopped_{false};
 };
