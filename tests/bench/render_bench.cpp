@@ -75,10 +75,11 @@ nlohmann::ordered_json run(const Case& one, double error, unsigned rays, unsigne
     const test::StillErrors errors = test::compareStill(solver.problem(), plain, points, paths);
     const double tracing = secondsSince(start);
     const double raysEach = static_cast<double>(picture.rays) / static_cast<double>(picture.gathers);
-    // Error of the path tracer falls with the root of its time: what it would take to be as exact.
+    // Error of the path tracer falls with the root of its time: what it would take to be as exact at all
+    // pixels.
     const double ratio = errors.standardError / errors.error;
     const double pixels = static_cast<double>(width) * height;
-    const double tracer = tracing / static_cast<double>(points.sensors.size()) * pixels * ratio * ratio;
+    const double tracer = tracing * one.step * one.step * ratio * ratio;
     fmt::print(
         "{:14} {:10} solve {:6.2f} s  gather {:6.2f} s  {:5.1f} rays a point, {:.2f} points a pixel  "
         "error {:.2f} %  bias {:+.2f} %  (reference +- {:.2f} %)  path tracer to the same {:.0f} s\n",
