@@ -35,9 +35,10 @@ std::string typeName(const solve::OptionInfo& option) {
     return name;
 }
 
-std::string describe(const solve::OptionInfo& option) {
+// Commands may have defaults of their own.
+std::string describe(const solve::OptionInfo& option, const solve::Options& defaults) {
     return fmt::format("{} Default {}; {}.", option.explanation,
-                       solve::formatOption(option, option.defaultValue()), solve::describeRange(option));
+                       solve::formatOption(option, option.get(defaults)), solve::describeRange(option));
 }
 
 void set(SolverArguments& arguments, const solve::OptionInfo& option, double value) {
@@ -89,7 +90,7 @@ void addSolverOptions(CLI::App& app, SolverArguments& arguments) {
                [&arguments, &option](const std::string& text) {
                    set(arguments, option, solve::parseOption(option, text));
                },
-               describe(option))
+               describe(option, arguments.options))
             ->type_name(typeName(option))
             ->group("Solver");
     }

@@ -46,6 +46,9 @@ class MaterialReader {
         }
         if (const auto bump = findIndex(source.extras, "fluxwalk_bump")) {
             material.bumpTexture = textureOf(*bump, 0, {});
+            if (const auto height = findNumber(source.extras, "fluxwalk_bump_height")) {
+                material.bumpHeight = toFloat(*height);
+            }
         }
         nameUnsupported(source, material);
         return material;

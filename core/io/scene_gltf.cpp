@@ -162,6 +162,7 @@ class SceneWriter {
         }
         if (material.bumpTexture.isSet()) {
             m["extras"]["fluxwalk_bump"] = textures_.info(material.bumpTexture)["index"];
+            m["extras"]["fluxwalk_bump_height"] = material.bumpHeight;
         }
         addAlphaAndEmission(glb_, textures_, material, m);
         return m;

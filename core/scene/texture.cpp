@@ -104,6 +104,11 @@ Vec4 TextureSet::Level::at(std::uint32_t x, std::uint32_t y) const {
     return {linear[p[0]], linear[p[1]], linear[p[2]], static_cast<float>(p[3]) * (1.0f / 255.0f)};
 }
 
+Vec4 TextureSet::Level::numbersAt(std::uint32_t x, std::uint32_t y) const {
+    const std::uint8_t* p = bytes.data() + 4 * (static_cast<std::size_t>(y) * width + x);
+    return Vec4(p[0], p[1], p[2], p[3]) * (1.0f / 255.0f);
+}
+
 TextureSet::Level TextureSet::halve(const Level& fine) {
     Level coarse;
     coarse.width = std::max(1u, fine.width / 2);
@@ -146,6 +151,18 @@ Vec4 TextureSet::bilinear(const Level& level, const TextureRef& texture, const V
     const Vec4 bottom =
         (1.0f - x.weight) * level.at(x.first, y.second) + x.weight * level.at(x.second, y.second);
     return (1.0f - y.weight) * top + y.weight * bottom;
+}
+
+Vec4 TextureSet::sampleNumbers(const TextureRef& texture, const Vec2d& texcoord) const {
+    const Level& level = images_[static_cast<std::size_t>(texture.image)].front();
+    const Vec2d uv = transform(texture, texcoord);
+    const Taps x = tapsAt(texture.wrapU, uv.x, level.width);
+    const Taps y = tapsAt(texture.wrapV, uv.y, level.height);
+    const Vec4 top =
+        glm::mix(level.numbersAt(x.first, y.first), level.numbersAt(x.second, y.first), x.weight);
+    const Vec4 bottom =
+        glm::mix(level.numbersAt(x.first, y.second), level.numbersAt(x.second, y.second), x.weight);
+    return glm::mix(top, bottom, y.weight);
 }
 
 Vec4 TextureSet::sample(const TextureRef& texture, const Vec2d& texcoord, float level) const {

@@ -18,6 +18,9 @@ class TextureSet {
     /// Sample of colour (linear light) and alpha, bilinear within a level and linear between two; `level` 0
     /// is the full picture. White where the reference names none.
     base::Vec4 sample(const TextureRef& texture, const base::Vec2d& texcoord, float level = 0.0f) const;
+    /// Bilinear sample of what a picture holds as it is, each channel in [0, 1]: for pictures of normals and
+    /// heights, which are not colours.
+    base::Vec4 sampleNumbers(const TextureRef& texture, const base::Vec2d& texcoord) const;
     /// Pyramid level at which one texel is as large as `footprint` in texture coordinates (before the
     /// transform).
     float levelFor(const TextureRef& texture, double footprint) const;
@@ -31,6 +34,8 @@ class TextureSet {
         std::vector<std::uint8_t> bytes;
 
         base::Vec4 at(std::uint32_t x, std::uint32_t y) const;
+        /// Level 0: its bytes as numbers.
+        base::Vec4 numbersAt(std::uint32_t x, std::uint32_t y) const;
     };
     static Level halve(const Level& fine);
     static base::Vec4 bilinear(const Level& level, const TextureRef& texture, const base::Vec2d& uv);

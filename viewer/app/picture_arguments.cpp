@@ -20,7 +20,7 @@ constexpr unsigned kMostSamples = 16;
 
 }  // namespace
 
-void addPictureOptions(CLI::App& app, LookArguments& look) {
+void addToneOptions(CLI::App& app, LookArguments& look) {
     app.add_option_function<std::string>(
            "--tone",
            [&look](const std::string& text) { look.draw.curve = parseChoice("--tone", text, kCurves); },
@@ -41,10 +41,6 @@ void addPictureOptions(CLI::App& app, LookArguments& look) {
            "most on its middle.")
         ->type_name("EV")
         ->group(kGroup);
-    app.add_flag_callback(
-           "--glow", [&look] { look.draw.glow = true; },
-           "The veil that lenses and eyes spread around lamps: a twentieth of the light, blurred.")
-        ->group(kGroup);
     app.add_option_function<std::string>(
            "--samples",
            [&look](const std::string& text) {
@@ -52,6 +48,14 @@ void addPictureOptions(CLI::App& app, LookArguments& look) {
            },
            "Samples a pixel of a written picture, for smooth edges; 8 by default.")
         ->type_name("N")
+        ->group(kGroup);
+}
+
+void addPictureOptions(CLI::App& app, LookArguments& look) {
+    addToneOptions(app, look);
+    app.add_flag_callback(
+           "--glow", [&look] { look.draw.glow = true; },
+           "The veil that lenses and eyes spread around lamps: a twentieth of the light, blurred.")
         ->group(kGroup);
 }
 
