@@ -29,7 +29,9 @@ struct Arguments {
     double error = 0.1;
     unsigned threads = 0;
     double secondsLimit = 120.0;
-    std::uint64_t paths = 4096;
+    /// Of the reference: light of hundreds of lamps is noisy, so few sensors have many paths.
+    std::size_t sensors = 256;
+    std::uint64_t paths = 131'072;
 };
 
 struct Series {
@@ -60,7 +62,12 @@ scene::Scene sceneOf(const std::string& name) {
 Row measureScene(const Arguments& arguments, const Series& series, const std::string& name,
                  std::size_t polygons) {
     const auto scene = std::make_shared<const scene::Scene>(sceneOf(name));
-    const Reference reference = traceReference(*scene, arguments.paths, arguments.threads);
+    SensorGroup everywhere{{}, arguments.sensors};
+    for (std::uint32_t object = 0; object < scene->objects.size(); ++object) {
+        everywhere.objects.push_back(object);
+    }
+    const Reference reference =
+        traceReference(*scene, arguments.paths, arguments.threads, std::span(&everywhere, 1));
     const Setting setting{scene, &reference.points,      arguments.threads,
                           1,     arguments.secondsLimit, series.clusterLinks};
     Row row;
@@ -164,6 +171,7 @@ int main(int argc, char** argv) {
     app.add_option("--all-pairs", arguments.mostForAllPairs, "Largest building whose patches are all linked");
     app.add_option("--error", arguments.error, "RMS error of gathered illuminance, part of the mean")
         ->check(CLI::Range(1e-3, 1.0));
+    app.add_option("--sensors", arguments.sensors, "Sensors of the reference")->check(CLI::Range(16, 1000));
     app.add_option("--paths", arguments.paths, "Paths of the reference for each sensor")
         ->check(CLI::Range(2, 100'000'000));
     app.add_option("--limit", arguments.secondsLimit, "Seconds that one run may take")
