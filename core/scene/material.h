@@ -56,7 +56,7 @@ struct Material {
     float alphaCutoff = 0.5f;  ///< AlphaMode::mask: alpha below it is a hole
     TextureRef normalTexture;
     float normalScale = 1.0f;
-    TextureRef bumpTexture;  ///< height map (`fluxwalk_bump`), used by final gathering
+    TextureRef bumpTexture;    ///< height map (`fluxwalk_bump`), used by final gathering
     float bumpHeight = 0.01f;  ///< metres from its black to its white
 
     bool isEmissive() const { return emission.r > 0.0f || emission.g > 0.0f || emission.b > 0.0f; }
