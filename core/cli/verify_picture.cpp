@@ -7,10 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/photometry.h"
-#include "core/cli/suggest.h"
 #include "core/cli/values.h"
-#include "core/scene/camera_path.h"
 
 namespace fluxwalk::cli {
 
@@ -18,7 +15,6 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kFov = 50.0;  // degrees
 constexpr unsigned kLargestSide = 4096;
 /// Every pixel keeps sums of its own.
 constexpr std::uint64_t kMostPixels = 2'000'000;
@@ -36,70 +32,23 @@ void parseViewSize(const std::string& text, ViewArguments& arguments) {
     }
 }
 
-Vec3d toVector(const std::vector<double>& v) {
-    return {v[0], v[1], v[2]};
-}
-
 }  // namespace
 
 void addViewOptions(CLI::App& app, ViewArguments& arguments) {
-    CLI::Option* name =
-        app.add_option("--camera", arguments.camera,
-                       "A picture of the solution's relative difference from the reference at the "
-                       "points that a camera of the scene sees; -o then names a PNG.");
-    name->type_name("NAME")->group("Picture of differences");
-    const auto addPoint = [&](const char* option, std::vector<double>& point, const char* description) {
-        return app.add_option(option, point, description)
-            ->delimiter(',')
-            ->expected(3)
-            ->type_name("X,Y,Z")
-            ->excludes(name)
-            ->group("Picture of differences");
-    };
-    CLI::Option* eye = addPoint("--eye", arguments.eye, "The same from a place, in metres.");
-    CLI::Option* target = addPoint("--target", arguments.target, "Where to look from there, in metres.");
-    eye->needs(target);
-    target->needs(eye);
+    addCameraOptions(app, arguments.camera);
     app.add_option_function<std::string>(
            "--size", [&arguments](const std::string& text) { parseViewSize(text, arguments); },
-           fmt::format("Pixels, each traced for itself. Default {}x{}.", arguments.width, arguments.height))
+           fmt::format("With a camera, -o names a PNG: a picture of the solution's relative difference from "
+                       "the reference at the points that it sees, of so many pixels, each traced for itself. "
+                       "Default {}x{}.",
+                       arguments.width, arguments.height))
         ->type_name("WxH")
-        ->group("Picture of differences");
+        ->group("Camera");
 }
 
 scene::Camera chooseView(const ViewArguments& arguments, const scene::Scene& scene) {
-    scene::Camera camera;
-    if (arguments.camera.empty()) {
-        camera.position = toVector(arguments.eye);
-        camera.forward = toVector(arguments.target) - camera.position;
-        // Looking straight up or down, north (-z) is up in the picture.
-        const bool isVertical = camera.forward.x == 0.0 && camera.forward.z == 0.0;
-        camera.up = isVertical ? Vec3d(0.0, 0.0, -1.0) : Vec3d(0.0, 1.0, 0.0);
-        camera.verticalFov = kFov * base::kPi / 180.0;
-        if (!(glm::length(camera.forward) > 0.0)) {
-            throw base::UsageError("--eye and --target must be two different points");
-        }
-    } else {
-        std::vector<std::string> names;
-        const scene::Camera* found = nullptr;
-        for (const scene::Camera& candidate : scene.cameras) {
-            names.push_back(candidate.name);
-            found = candidate.name == arguments.camera && found == nullptr ? &candidate : found;
-        }
-        if (found == nullptr) {
-            std::string list;
-            for (const std::string& name : names) {
-                list += (list.empty() ? "; it has " : ", ") + name;
-            }
-            throw base::UsageError(
-                base::toOneLine("--camera: the scene has no camera '" + arguments.camera + "'" + list));
-        }
-        camera = *found;
-    }
+    scene::Camera camera = chooseCamera(arguments.camera, scene, [] { return scene::Camera{}; });
     camera.forward = glm::normalize(camera.forward);
-    if (const auto fault = scene::findFault(camera)) {
-        throw base::UsageError("the camera " + *fault);
-    }
     return camera;
 }
 

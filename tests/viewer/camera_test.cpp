@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/photometry.h"
-#include "viewer/app/camera_arguments.h"
+#include "core/cli/camera_arguments.h"
 #include "viewer/app/picture_size.h"
 
 namespace fluxwalk::render {
@@ -72,8 +72,8 @@ class ChooseCamera : public ::testing::Test {
         scene_.cameras[1].name = "window";
         scene_.cameras[1].verticalFov = 0.5;
     }
-    scene::Camera choose(const app::CameraArguments& arguments) const {
-        return app::chooseCamera(arguments, scene_, [] {
+    scene::Camera choose(const cli::CameraArguments& arguments) const {
+        return cli::chooseCamera(arguments, scene_, [] {
             scene::Camera camera;
             camera.name = "first view";
             return camera;
@@ -83,7 +83,7 @@ class ChooseCamera : public ::testing::Test {
 };
 
 TEST_F(ChooseCamera, ByNameEyeOrDefault) {
-    app::CameraArguments arguments;
+    cli::CameraArguments arguments;
     EXPECT_EQ(choose(arguments).name, "door");
     arguments.name = "window";
     EXPECT_EQ(choose(arguments).verticalFov, 0.5);
@@ -99,7 +99,7 @@ TEST_F(ChooseCamera, ByNameEyeOrDefault) {
 }
 
 TEST_F(ChooseCamera, UnknownNameListsTheKnown) {
-    app::CameraArguments arguments;
+    cli::CameraArguments arguments;
     arguments.name = "roof";
     try {
         choose(arguments);

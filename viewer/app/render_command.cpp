@@ -7,6 +7,7 @@
 #include <CLI/App.hpp>
 #include <fmt/format.h>
 
+#include "core/cli/camera_arguments.h"
 #include "core/cli/interrupt.h"
 #include "core/cli/output.h"
 #include "core/cli/progress.h"
@@ -14,7 +15,6 @@
 #include "core/cli/values.h"
 #include "core/image/final_gather.h"
 #include "core/io/image_write.h"
-#include "viewer/app/camera_arguments.h"
 #include "viewer/app/first_view.h"
 #include "viewer/app/look_arguments.h"
 #include "viewer/app/picture_file.h"
@@ -33,7 +33,7 @@ struct RenderArguments {
     cli::SceneArguments scene;
     cli::SolverArguments solver;
     cli::OutputArguments output;
-    CameraArguments camera;
+    cli::CameraArguments camera;
     gl::PixelSize size{1280, 720};
     std::filesystem::path picture;
     LookArguments look;
@@ -66,15 +66,15 @@ void requireSound(const RenderArguments& arguments) {
         cli::requireWritable(arguments.output.report);
     }
     if (!arguments.camera.eye.empty()) {
-        chooseCamera(arguments.camera, {}, {});
+        cli::chooseCamera(arguments.camera, {}, {});
     } else if (!arguments.camera.name.empty()) {
-        chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
+        cli::chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
     }
 }
 
 image::Still take(const RenderArguments& arguments, const cli::Solved& solved) {
     const solve::Problem& problem = solved.solver->problem();
-    const scene::Camera camera = chooseCamera(arguments.camera, *solved.scene, [&] {
+    const scene::Camera camera = cli::chooseCamera(arguments.camera, *solved.scene, [&] {
         return chooseFirstView(problem.rays, solved.scene->bounds());
     });
     image::StillOptions options;
@@ -153,7 +153,7 @@ cli::Command renderCommand() {
                 arguments->solver.options.error = kDefaultError;
                 arguments->solver.options.errorOf = solve::ErrorOf::gathered;
                 cli::addSceneOptions(app, arguments->scene);
-                addCameraOptions(app, arguments->camera);
+                cli::addCameraOptions(app, arguments->camera);
                 addRenderOptions(app, arguments);
                 cli::addSolverOptions(app, arguments->solver);
                 app.add_option("-o,--output", arguments->picture,

@@ -7,13 +7,13 @@
 
 #include <CLI/App.hpp>
 
+#include "core/cli/camera_arguments.h"
 #include "core/cli/checkpointing.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
 #include "core/cli/values.h"
 #include "core/io/lit_gltf.h"
 #include "core/io/visitor_files.h"
-#include "viewer/app/camera_arguments.h"
 #include "viewer/app/choice.h"
 #include "viewer/app/first_view.h"
 #include "viewer/app/floor.h"
@@ -41,7 +41,7 @@ struct ViewArguments {
     cli::SceneArguments scene;
     cli::SolverArguments solver;
     cli::OutputArguments output;
-    CameraArguments camera;
+    cli::CameraArguments camera;
     std::filesystem::path screenshot;
     std::filesystem::path play;
     double framesPerSecond = 30.0;
@@ -77,7 +77,7 @@ Shown loadLit(const std::string& file) {
 }
 
 scene::Camera cameraFor(const ViewArguments& arguments, const Shown& shown) {
-    return chooseCamera(arguments.camera, *shown.scene, [&] {
+    return cli::chooseCamera(arguments.camera, *shown.scene, [&] {
         const Solid solid(shown.solid);
         return chooseFirstView(solid.rays, shown.solid->bounds());
     });
@@ -158,7 +158,7 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
         shown = loadLit(arguments.scene.scene);
     } else {
         if (!arguments.camera.name.empty()) {
-            chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
+            cli::chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
         }
         solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
         shown = {solved->scene, *solved->solver->show(detailFor(arguments.look.draw)), solved->scene};
@@ -267,7 +267,7 @@ cli::ExitCode runView(const ViewArguments& arguments) {
     }
     if (!arguments.camera.eye.empty()) {
         // Refused before the solving, which may take long.
-        chooseCamera(arguments.camera, {}, {});
+        cli::chooseCamera(arguments.camera, {}, {});
     }
     if (!arguments.screenshot.empty()) {
         return takePicture(arguments, arguments.screenshot);
@@ -301,7 +301,7 @@ cli::Command viewCommand() {
         [](CLI::App& app) {
             const auto arguments = std::make_shared<ViewArguments>();
             cli::addSceneOptions(app, arguments->scene);
-            addCameraOptions(app, arguments->camera);
+            cli::addCameraOptions(app, arguments->camera);
             app.add_option(
                    "--screenshot", arguments->screenshot,
                    "Solve, write a picture and end, without a window. A file named *.exr gets linear light "

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "core/base/bounds.h"
-#include "core/scene/scene.h"
+#include "core/scene/look_at.h"
 
 namespace fluxwalk::render {
 
-/// Camera at `eye` that looks at `target`, upright. Throws base::UsageError where they coincide or the angle
-/// is not in (0, 180) degrees.
-scene::Camera lookAt(const base::Vec3d& eye, const base::Vec3d& target, double verticalFovDegrees);
+using scene::lookAt;
 
 /// Distances along the view in metres between which the scene is drawn.
 struct ClipRange {

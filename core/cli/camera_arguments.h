@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace fluxwalk::app {
+namespace fluxwalk::cli {
 
 /// Where to look from, as typed.
 struct CameraArguments {
@@ -29,4 +29,4 @@ void addCameraOptions(CLI::App& app, CameraArguments& arguments);
 scene::Camera chooseCamera(const CameraArguments& arguments, const scene::Scene& scene,
                            const std::function<scene::Camera()>& firstView);
 
-}  // namespace fluxwalk::app
+}  // namespace fluxwalk::cli

@@ -1,4 +1,4 @@
-#include "viewer/app/camera_arguments.h"
+#include "core/cli/camera_arguments.h"
 
 #include <CLI/App.hpp>
 
@@ -6,9 +6,9 @@
 #include "core/base/photometry.h"
 #include "core/cli/values.h"
 #include "core/scene/camera_path.h"
-#include "viewer/render/camera.h"
+#include "core/scene/look_at.h"
 
-namespace fluxwalk::app {
+namespace fluxwalk::cli {
 namespace {
 
 constexpr double kDefaultFov = 50.0;
@@ -51,7 +51,7 @@ void addCameraOptions(CLI::App& app, CameraArguments& arguments) {
     app.add_option_function<std::string>(
            "--fov",
            [&arguments](const std::string& text) {
-               arguments.fov = cli::parseNumberOption("--fov", text, kLeastFov, kLargestFov, "degrees");
+               arguments.fov = parseNumberOption("--fov", text, kLeastFov, kLargestFov, "degrees");
            },
            "Vertical field of view in degrees; by default the camera's own, or 50 with --eye.")
         ->type_name("DEG")
@@ -62,8 +62,8 @@ scene::Camera chooseCamera(const CameraArguments& arguments, const scene::Scene&
                            const std::function<scene::Camera()>& firstView) {
     scene::Camera camera;
     if (!arguments.eye.empty()) {
-        camera = render::lookAt(toVector(arguments.eye), toVector(arguments.target),
-                                arguments.fov > 0.0 ? arguments.fov : kDefaultFov);
+        camera = scene::lookAt(toVector(arguments.eye), toVector(arguments.target),
+                               arguments.fov > 0.0 ? arguments.fov : kDefaultFov);
     } else if (!arguments.name.empty()) {
         camera = findCamera(arguments.name, scene);
     } else {
@@ -79,4 +79,4 @@ scene::Camera chooseCamera(const CameraArguments& arguments, const scene::Scene&
     return camera;
 }
 
-}  // namespace fluxwalk::app
+}  // namespace fluxwalk::cli
