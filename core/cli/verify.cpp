@@ -133,6 +133,22 @@ ExitCode traceAndTell(const VerifyArguments& arguments, const Subject& subject, 
     return isStopped ? ExitCode::interrupted : ExitCode::success;
 }
 
+// Leaves out what lies where no light comes, as the outside of a room.
+void dropDark(SeenPoints& seen, const solve::Problem& problem) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < seen.sensors.size(); ++i) {
+        if (!image::isInSolid(problem.rays, problem.hierarchy.reached(), seen.sensors[i])) {
+            seen.sensors[kept] = seen.sensors[i];
+            seen.pixels[kept++] = seen.pixels[i];
+        }
+    }
+    seen.sensors.resize(kept);
+    seen.pixels.resize(kept);
+    if (kept == 0) {
+        throw base::UsageError("the camera sees nothing that light reaches");
+    }
+}
+
 // Relative differences of a solution from the reference at what a camera sees, as a picture.
 ExitCode drawDifferences(const VerifyArguments& arguments) {
     scene::Camera camera;
@@ -141,6 +157,7 @@ ExitCode drawDifferences(const VerifyArguments& arguments) {
                   [&](const scene::Scene& scene) { camera = chooseView(arguments.view, scene); });
     const solve::Problem& problem = solved.solver->problem();
     SeenPoints seen = lookThrough(camera, arguments.view, problem.rays, *problem.scene);
+    dropDark(seen, problem);
     const std::vector<base::Rgb> values = image::measure(*solved.solver, seen.sensors);
     const std::shared_ptr<const scene::Scene> lit =
         scene::relightScene(problem.scene, solved.solver->options().lighting);

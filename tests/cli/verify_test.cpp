@@ -90,6 +90,10 @@ TEST_F(Verify, DrawsDifferences) {
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(read("d.png").substr(1, 3), "PNG");
     EXPECT_LT(nlohmann::json::parse(read("d.json")).at("agreement").at("rms"), 0.5);
+    // From above, outside of the box, its dark outer side alone is seen.
+    expectFailure({"verify", "cornell-box", "--eye", "0.3,3,0.3", "--target", "0.3,0,0.3", "--size", "8x8",
+                   "--error", "30%", "--quiet", "-o", path("dark.png")},
+                  ExitCode::usage, "sees nothing that light reaches");
 }
 
 TEST_F(Verify, MeasuresGridsWithStatisticsAndPlan) {
