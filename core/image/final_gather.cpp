@@ -27,12 +27,11 @@ constexpr float kContrast = 0.08f;
 /// other's plane is less than this part of their distance.
 constexpr float kSameNormal = 0.98f;
 constexpr float kSamePlane = 0.12f;
-/// Pixels around one over which noise is averaged, the fall of their weights with the square of the distance,
-/// and the differences, as a part of the irradiance, that are taken for noise.
+/// Pixels around one over which noise is averaged, the falls of their weights with the square of the distance
+/// and with that of the difference in its standard errors, and the least of these as a part of the
+/// irradiance.
 constexpr int kSmoothReach = 3;
 constexpr float kFall = 0.12f;
-constexpr float kNoise = 0.03f;  ///< with so many rays to weak sources:
-constexpr float kNoiseRays = 96.0f;
 /// Reach in pixels of the light of a pixel's middle.
 constexpr double kReach = 1.25;
 constexpr float kInversePi = static_cast<float>(1.0 / base::kPi);
@@ -86,6 +85,14 @@ bool differ(const Middle& a, const Middle& b) {
     return std::abs(x - y) > kContrast * std::max(x, y);
 }
 
+// Rays of neighbouring pixels interleave, so that their mean is more exact than each by more than their
+// number. (Roberts 2018, The unreasonable effectiveness of quasirandom sequences: the plastic number's
+// lattice.)
+double phaseAt(std::uint32_t x, std::uint32_t y) {
+    const double place = 0.7548776662466927 * x + 0.5698402909980532 * y;
+    return place - std::floor(place);
+}
+
 class StillMaker {
   public:
     StillMaker(const solve::Problem& problem, const scene::Camera& camera, const StillOptions& options,
@@ -94,8 +101,7 @@ class StillMaker {
           options_(options),
           callbacks_(callbacks),
           lens_(camera, options.width, options.height),
-          points_(problem.hierarchy),
-          noise_(kNoise * std::sqrt(kNoiseRays / static_cast<float>(options.rays.weak))) {
+          points_(problem.hierarchy) {
         const std::size_t pixels = static_cast<std::size_t>(options.width) * options.height;
         still_.width = options.width;
         still_.height = options.height;
@@ -207,6 +213,7 @@ class StillMaker {
                 Seen& here = seen[static_cast<std::size_t>(y) * tile.width + x];
                 here = *found;
                 here.point.key = keyOf(tile.left + x, tile.top + y, 0);
+                here.point.phase = phaseAt(tile.left + x, tile.top + y);
                 middle.object = here.object + 1;
                 middle.leaf = here.leaf;
                 middle.hasTexture = here.hasTexture || here.hasRelief;
@@ -227,11 +234,6 @@ class StillMaker {
     // The correction of a pixel's light, averaged over its surroundings on the same element where it differs
     // by no more than noise does. Elements have corrections of their own.
     Rgb smoothCorrection(const Middle& middle, std::int64_t x, std::int64_t y) const {
-        const float noise = noise_ * base::channelMean(middle.light.sum());
-        const float own = base::channelMean(middle.light.correction);
-        if (!(noise > 0.0f)) {
-            return middle.light.correction;
-        }
         Rgb sum(0.0f);
         float weights = 0.0f;
         for (int dy = -kSmoothReach; dy <= kSmoothReach; ++dy) {
@@ -241,9 +243,8 @@ class StillMaker {
                     glm::dot(other->shading, middle.shading) < kSameNormal) {
                     continue;
                 }
-                const float off = (base::channelMean(other->light.correction) - own) / noise;
                 const auto away = static_cast<float>(dx * dx + dy * dy);
-                const float weight = std::exp(-0.5f * off * off - kFall * away);
+                const float weight = likeness(middle.light, other->light) * std::exp(-kFall * away);
                 sum += weight * other->light.correction;
                 weights += weight;
             }
@@ -421,7 +422,6 @@ class StillMaker {
     Lens lens_;
     Still still_;
     SourcePoints points_;
-    float noise_;  ///< differences in light that count as noise, relative
     std::vector<ColumnGather> columns_;
     std::array<Strip, 4> strips_;
     std::atomic<bool> isStopped_{false};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/photometry.h"
+#include "core/image/part_light.h"
 #include "core/transport/element_sampler.h"
 #include "core/transport/exposed_part.h"
 #include "core/transport/form_factor.h"
@@ -23,13 +24,16 @@ constexpr float kOpenSpread = 2e-3f;
 /// A cluster is opened where it may bring more than this part, or where it is nearer than this many radii.
 constexpr float kOpenCluster = 4e-3f;
 constexpr double kClusterGap = 1.5;
-/// A curved source is opened where it is nearer than this many of its radii.
+/// A curved source is opened where it is nearer than this many of its radii, to parts whose normals differ by
+/// no more than some radians.
 constexpr double kCurvedGap = 6.0;
+constexpr float kFlatPart = 0.05f;
+/// How light changes within a source is seen where that is nearer than this many of its radii and brings more
+/// than this part of the irradiance.
+constexpr double kLitGap = 4.0;
+constexpr float kLitWithin = 0.02f;
 /// The exposed part of a source nearer than so many radii is found anew at every point.
 constexpr double kNearGap = 2.0;
-/// Sources farther away from all points than this many times their radius are integrated by their cubature
-/// points: relative error below 1e-3.
-constexpr double kFar = 5.0;
 /// Sources that bring more than this part of the irradiance have shadow rays of their own.
 constexpr float kStrong = 0.04f;
 /// Elements darker than this part of the scene's mean are as exact as if they were no darker.
@@ -37,30 +41,6 @@ constexpr float kDarkest = 0.03f;
 
 double toDouble(float v) {
     return static_cast<double>(v);
-}
-
-// Solves the symmetric system m x = y in place; m is well conditioned by its ridge.
-void solveSystem(std::array<std::array<double, kTerms>, kTerms> m,
-                 std::array<std::array<double, kLanes>, kTerms>& y) {
-    for (std::size_t i = 0; i < kTerms; ++i) {
-        for (std::size_t j = i + 1; j < kTerms; ++j) {
-            const double factor = m[j][i] / m[i][i];
-            for (std::size_t k = i; k < kTerms; ++k) {
-                m[j][k] -= factor * m[i][k];
-            }
-            for (std::size_t k = 0; k < kLanes; ++k) {
-                y[j][k] -= factor * y[i][k];
-            }
-        }
-    }
-    for (std::size_t i = kTerms; i-- > 0;) {
-        for (std::size_t k = 0; k < kLanes; ++k) {
-            for (std::size_t j = i + 1; j < kTerms; ++j) {
-                y[i][k] -= m[i][j] * y[j][k];
-            }
-            y[i][k] /= m[i][i];
-        }
-    }
 }
 
 Vec3d lane(const Lanes3& v, int i) {
@@ -73,6 +53,19 @@ float largestLane(const Lanes& v) {
         most = std::max(most, v[i]);
     }
     return static_cast<float>(most);
+}
+
+// Of triangles that are partly hidden the parts are no cells.
+bool canOpenLeaf(const hierarchy::Shape& shape) {
+    return shape.cornerCount == 4 || !transport::isPartlyHidden(shape);
+}
+
+// Mean radiosity of a part.
+Rgb lightOf(const CellLight& light, transport::Path part) {
+    const unsigned first = 4 * surface::pathStep(part, 0);
+    return surface::pathLevel(part) == transport::kMaxPartLevel
+               ? light[first + surface::pathStep(part, 1)]
+               : 0.25f * (light[first] + light[first + 1] + light[first + 2] + light[first + 3]);
 }
 
 // Place of a direction from a plane with this normal along a curve through the disc of directions: quarters
@@ -102,71 +95,22 @@ std::uint32_t orderOf(const Vec3d& direction, const Vec3d& along, const Vec3d& a
 
 }  // namespace
 
-transport::ClusterSampler::Place samplePoint(const hierarchy::Hierarchy& hierarchy, NodeId source,
+transport::ClusterSampler::Place samplePoint(const hierarchy::Hierarchy& hierarchy, const Source& source,
                                              const base::Vec2d& random) {
     transport::ClusterSampler::Place result;
+    if (source.region != nullptr) {
+        result.point = transport::sampleRegion(hierarchy, source.node, *source.region, random);
+        return result;
+    }
     double mean = 1.0;
-    if (hierarchy.kind(source) == NodeKind::cluster) {
-        result = transport::ClusterSampler(hierarchy, source).at(random.x, random.y);
+    if (hierarchy.kind(source.node) == NodeKind::cluster) {
+        result = transport::ClusterSampler(hierarchy, source.node).at(random.x, random.y);
     } else {
-        const transport::ElementSampler sampler(hierarchy, source);
+        const transport::ElementSampler sampler(hierarchy, source.node);
         result.point = sampler.inExposed(random);
         mean = sampler.meanMeasure();
     }
-    result.point.measure *= toDouble(hierarchy.shape(source).sampledArea()) / mean;
-    return result;
-}
-
-TangentFit::TangentFit(const transport::ElementPoints& element) : middle_(element.center) {
-    const Vec3d normal = lane(element.normal, 0);
-    const Vec3d edge = element.corners[1] - element.corners[0];
-    Vec3d along = edge - glm::dot(edge, normal) * normal;
-    if (!(glm::length(along) > 1e-9 * element.radius)) {
-        along = glm::cross(normal, std::abs(normal.y) < 0.7 ? Vec3d(0, 1, 0) : Vec3d(0, 0, 1));
-    }
-    along = glm::normalize(along);
-    const Vec3d across = glm::cross(normal, along);
-    double longest = 1e-300;
-    double widest = 1e-300;
-    for (int i = 0; i < kLanes; ++i) {
-        const Vec3d d = lane(element.position, i) - middle_;
-        longest = std::max(longest, std::abs(glm::dot(d, along)));
-        widest = std::max(widest, std::abs(glm::dot(d, across)));
-    }
-    along_ = along / longest;
-    across_ = across / widest;
-    std::array<std::array<double, kTerms>, kTerms> normalMatrix{};
-    for (std::size_t i = 0; i < kLanes; ++i) {
-        const Terms terms = termsAt(lane(element.position, static_cast<int>(i)));
-        for (std::size_t k = 0; k < kTerms; ++k) {
-            solution_[k][i] = toDouble(terms[k]);
-            for (std::size_t l = 0; l < kTerms; ++l) {
-                normalMatrix[k][l] += toDouble(terms[k]) * toDouble(terms[l]);
-            }
-        }
-    }
-    for (std::size_t k = 0; k < kTerms; ++k) {
-        normalMatrix[k][k] += 1e-5;
-    }
-    solveSystem(normalMatrix, solution_);
-}
-
-Terms TangentFit::termsAt(const Vec3d& position) const {
-    const Vec3d d = position - middle_;
-    const auto a = static_cast<float>(glm::dot(d, along_));
-    const auto b = static_cast<float>(glm::dot(d, across_));
-    return {1.0f, a, b, a * a, a * b, b * b};
-}
-
-Terms TangentFit::fit(const Lanes& values) const {
-    Terms result{};
-    for (std::size_t k = 0; k < kTerms; ++k) {
-        double sum = 0.0;
-        for (int i = 0; i < kLanes; ++i) {
-            sum += solution_[k][static_cast<std::size_t>(i)] * values[i];
-        }
-        result[k] = static_cast<float>(sum);
-    }
+    result.point.measure *= toDouble(hierarchy.shape(source.node).sampledArea()) / mean;
     return result;
 }
 
@@ -179,82 +123,6 @@ double exposedShareAt(const hierarchy::Hierarchy& hierarchy, NodeId source, cons
                                                  std::max(0.0, -glm::dot(p.normal, d)) / (r2 * r2);
                                       })
         .share;
-}
-
-namespace {
-
-// By the source's cubature points, for points that are far from it.
-FLUXWALK_INLINE Lanes farFactors(const Lanes3& x, const Lanes3& normal,
-                                 const transport::ElementPoints& source) {
-    constexpr int kCubaturePoints = 4;
-    Lanes sum = base::splat(0.0);
-    for (int j = 0; j < kCubaturePoints; ++j) {
-        const Lanes3 to = {source.position.x[j] - x.x, source.position.y[j] - x.y,
-                           source.position.z[j] - x.z};
-        const Lanes r2 = base::dot(to, to);
-        const Lanes here = base::maxLanes(base::dot(normal, to), base::splat(0.0));
-        const Lanes there = base::maxLanes(
-            -(source.normal.x[j] * to.x + source.normal.y[j] * to.y + source.normal.z[j] * to.z),
-            base::splat(0.0));
-        sum += source.weight[j] * here * there / (base::kPi * r2 * r2);
-    }
-    return source.area * sum;
-}
-
-[[gnu::target("avx2")]] Lanes farFactorsAvx2(const Lanes3& x, const Lanes3& normal,
-                                             const transport::ElementPoints& source) {
-    return farFactors(x, normal, source);
-}
-
-Lanes farFactorsBaseline(const Lanes3& x, const Lanes3& normal, const transport::ElementPoints& source) {
-    return farFactors(x, normal, source);
-}
-
-bool hasAvx2() {
-    static const bool kHas = __builtin_cpu_supports("avx2") != 0;
-    return kHas;
-}
-
-bool isFar(const Lanes3& x, const transport::ElementPoints& source) {
-    const double far = kFar * source.radius;
-    for (int i = 0; i < kLanes; ++i) {
-        const Vec3d d = lane(x, i) - source.center;
-        if (!(glm::dot(d, d) > far * far)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-}  // namespace
-
-Lanes computeFactors(const Lanes3& x, const Lanes3& normal, const transport::ElementPoints& source) {
-    if (!isFar(x, source)) {
-        return transport::computePointFactors(x, normal, source);
-    }
-    return hasAvx2() ? farFactorsAvx2(x, normal, source) : farFactorsBaseline(x, normal, source);
-}
-
-SourcePoints::SourcePoints(const hierarchy::Hierarchy& hierarchy)
-    : hierarchy_(hierarchy), points_(hierarchy.nodeCount()) {}
-
-SourcePoints::~SourcePoints() {
-    for (const auto& points : points_) {
-        delete points.load();
-    }
-}
-
-const transport::ElementPoints& SourcePoints::of(NodeId element) {
-    std::atomic<const transport::ElementPoints*>& place = points_[base::index(element)];
-    if (const transport::ElementPoints* known = place.load(std::memory_order_acquire)) {
-        return *known;
-    }
-    auto made =
-        std::make_unique<const transport::ElementPoints>(transport::makeElementPoints(hierarchy_, element));
-    const transport::ElementPoints* before = nullptr;
-    // Another thread may have been faster, with the same.
-    return place.compare_exchange_strong(before, made.get(), std::memory_order_acq_rel) ? *made.release()
-                                                                                        : *before;
 }
 
 /// A leaf whose sources are looked for.
@@ -378,6 +246,13 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
     kept.node = source;
     kept.visibility = visibility;
     kept.radiosity = light.radiosity;
+    if (h_.isLeaf(source) && canOpenLeaf(shape)) {
+        const bool isLit = isLitWithin(search, kept, points, factors);
+        if (isLit || isSeenWithin(search, source, points, surface::kRootPath)) {
+            addParts(search, kept, surface::kRootPath, isLit ? &partLight_->of(source) : nullptr, isOpen);
+            return;
+        }
+    }
     kept.points = &points;
     kept.isPartlyHidden = isPartlyHidden;
     if (isPartlyHidden) {
@@ -390,6 +265,67 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
     }
     search.keep(kept, factors, isOpen);
 }
+
+// Whether the shape of a leaf or its part, or what is exposed of it, is seen within.
+bool SourceFinder::isSeenWithin(const Search& search, NodeId leaf, const transport::ElementPoints& points,
+                                transport::Path part) const {
+    const hierarchy::Shape& shape = h_.shape(leaf);
+    const double gap = glm::distance(points.center, search.receiver.center) - search.receiver.radius;
+    if (transport::partExposure(shape, part) == transport::PartExposure::some &&
+        gap < kNearGap * points.radius) {
+        return true;
+    }
+    const float halfAngle = shape.halfAngle / static_cast<float>(1u << surface::pathLevel(part));
+    return !shape.isPlanar && halfAngle > kFlatPart && gap < kCurvedGap * points.radius;
+}
+
+bool SourceFinder::isLitWithin(const Search& search, const Source& source,
+                               const transport::ElementPoints& points, const Lanes& factors) const {
+    const double gap = glm::distance(points.center, search.receiver.center) - search.receiver.radius;
+    return partLight_ && gap < kLitGap * points.radius &&
+           largestLane(factors) * base::channelMean(source.radiosity) > kLitWithin * search.reference;
+}
+
+void SourceFinder::addParts(Search& search, const Source& whole, transport::Path part, const CellLight* light,
+                            bool isOpen) {
+    const hierarchy::Shape& shape = h_.shape(whole.node);
+    for (unsigned k = 0; k < 4; ++k) {
+        const transport::Path quarter = surface::childPath(part, k);
+        const transport::PartExposure exposure = transport::partExposure(shape, quarter);
+        const bool isHidden = exposure == transport::PartExposure::none;
+        const SourcePart& seen = points_.of(whole.node, quarter);
+        const Lanes factors = computeFactors(search.receiver.position, search.receiver.normal, seen.points);
+        Source kept = whole;
+        if (isHidden) {
+            // But for slivers beside what hides it, which rays find.
+            kept.visibility = 0.0f;
+        }
+        if (light != nullptr) {
+            kept.radiosity = lightOf(*light, quarter);
+        }
+        if (surface::pathLevel(quarter) < transport::kMaxPartLevel &&
+            (exposure == transport::PartExposure::some ||
+             isSeenWithin(search, whole.node, seen.points, quarter) ||
+             isLitWithin(search, kept, seen.points, factors))) {
+            addParts(search, whole, quarter, light, isOpen);
+            continue;
+        }
+        kept.points = &seen.points;
+        kept.region = &seen.region;
+        if (kept.radiosity != Rgb(0.0f)) {
+            search.keep(kept, factors, isOpen && !isHidden);
+        }
+    }
+}
+
+SourceFinder::SourceFinder(const solve::Problem& problem, SourcePoints& points, NearLight nearLight)
+    : problem_(problem),
+      h_(problem.hierarchy),
+      points_(points),
+      partLight_(nearLight == NearLight::gathered ? std::make_unique<PartLight>(problem, points) : nullptr) {}
+
+SourceFinder::SourceFinder(SourceFinder&&) noexcept = default;
+SourceFinder::~SourceFinder() = default;
 
 LeafSources SourceFinder::find(NodeId leaf) {
     Search search;

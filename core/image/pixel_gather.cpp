@@ -39,7 +39,23 @@ Vec2d shiftOf(std::uint64_t key) {
     return {base::toUnit(base::mix(key)), base::toUnit(base::mix(key + 0x9e3779b97f4a7c15ULL))};
 }
 
+/// Fall of likeness with the square of the difference in standard errors, and the least of these as a part of
+/// the irradiance.
+constexpr float kDoubt = 0.25f;
+constexpr float kLeastNoise = 2e-3f;
+
+float varianceOf(const PixelLight& light) {
+    const float least = kLeastNoise * base::channelMean(light.sum());
+    return std::max(light.noise * light.noise, least * least);
+}
+
 }  // namespace
+
+float likeness(const PixelLight& a, const PixelLight& b) {
+    const float off = base::channelMean(a.correction) - base::channelMean(b.correction);
+    const float variance = varianceOf(a) + varianceOf(b);
+    return variance > 0.0f ? std::exp(-kDoubt * off * off / variance) : 1.0f;
+}
 
 void PixelGather::findFactors(const LeafSources& sources, std::span<const PixelPoint> points) {
     base::Lanes3 x;
@@ -90,12 +106,12 @@ void PixelGather::gather(const LeafSources& sources, std::span<const PixelPoint>
 
 void PixelGather::aimStrong(const LeafSources& sources, const PixelPoint& point, Bundle& bundle,
                             unsigned count) {
-    const NodeId node = sources.strong[bundle.source].node;
-    const Vec2d shift = shiftOf(base::combine(point.key, problem_.hierarchy.key(node)));
+    const Source& source = sources.strong[bundle.source];
+    const Vec2d shift = shiftOf(base::combine(point.key, problem_.hierarchy.key(source.node)));
     bundle.first = rays_.size();
     for (unsigned k = bundle.tried; k < bundle.tried + count; ++k) {
         const transport::SurfaceSample y =
-            samplePoint(problem_.hierarchy, node, base::r2Point(k, shift)).point;
+            samplePoint(problem_.hierarchy, source, base::r2Point(k, shift)).point;
         const double weight = y.measure * kernelBetween(point.position, point.shading, y);
         if (weight > 0.0) {
             rays_.push_back(problem_.rays.segment(point.position, point.normal, y.position, y.normal));
@@ -126,13 +142,12 @@ void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, d
     const auto wanted = static_cast<unsigned>(std::lround(budget_.weak * std::sqrt(std::min(1.0, share))));
     const unsigned count = std::max(kLeastWeakRays, wanted);
     const std::uint64_t key = base::combine(point.key, 0x77);
-    const double start = base::toUnit(base::mix(key));
     const Vec2d shift = shiftOf(key + 1);
     const hierarchy::Hierarchy& h = problem_.hierarchy;
     std::size_t j = 0;
     double below = 0.0;
     for (unsigned k = 0; k < count; ++k) {
-        const double place = (k + start) / count * sum;
+        const double place = (k + point.phase) / count * sum;
         while (j + 1 < weakWeights_.size() && below + static_cast<double>(weakWeights_[j]) <= place) {
             below += static_cast<double>(weakWeights_[j++]);
         }
@@ -141,7 +156,7 @@ void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, d
         if (!(weight > 0.0)) {
             continue;
         }
-        const transport::ClusterSampler::Place at = samplePoint(h, source.node, base::r2Point(k, shift));
+        const transport::ClusterSampler::Place at = samplePoint(h, source, base::r2Point(k, shift));
         const transport::SurfaceSample& y = at.point;
         const Rgb& radiosity = h.kind(source.node) == hierarchy::NodeKind::cluster
                                    ? h.light(h.patches()[at.patch]).radiosity
@@ -177,15 +192,28 @@ PixelLight PixelGather::sumWeak(const LeafSources& sources) const {
     }
     Rgb all(0.0f);
     Rgb surplus(0.0f);
+    float squares = 0.0f;
+    float before = 0.0f;
     for (std::size_t i = 0; i < weakRays_.size(); ++i) {
         const WeakRay& ray = weakRays_[i];
+        const Rgb more = ((blocked_[firstWeak_ + i] == 0 ? 1.0f : 0.0f) - ray.expected) * ray.light;
         all += ray.light;
-        surplus += ((blocked_[firstWeak_ + i] == 0 ? 1.0f : 0.0f) - ray.expected) * ray.light;
+        surplus += more;
+        const float here = base::channelMean(more);
+        if (i > 0) {
+            squares += (here - before) * (here - before);
+        }
+        before = here;
     }
     for (int c = 0; c < 3; ++c) {
         if (all[c] > 0.0f) {
             result.correction[c] = unoccluded[c] * surplus[c] / all[c];
         }
+    }
+    const float brightness = base::channelMean(all);
+    if (brightness > 0.0f) {
+        // Neighbouring strata stand for each other (Cochran 1977, section 5A.12).
+        result.noise = base::channelMean(unoccluded) * std::sqrt(0.5f * squares) / brightness;
     }
     return result;
 }
@@ -309,7 +337,7 @@ PixelLight PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& 
                                       : static_cast<double>(sources.strong[bundle.source].visibility);
         sum += bundle.factor * visibility * Vec3d(sources.strong[bundle.source].radiosity);
     }
-    return {Rgb(sum) + weakLight.steady, weakLight.correction};
+    return {Rgb(sum) + weakLight.steady, weakLight.correction, weakLight.noise};
 }
 
 }  // namespace fluxwalk::image

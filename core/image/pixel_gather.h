@@ -16,6 +16,8 @@ struct PixelPoint {
     Vec3d normal{};         ///< of the surface, unit, towards the side that is seen
     Vec3d shading{};        ///< the normal that a normal or height map makes of it
     std::uint64_t key = 0;  ///< of what is random about the point
+    /// In [0, 1): where its rays to weak sources lie among those of its neighbours.
+    double phase = 0.5;
 };
 
 /// Irradiance in lux in two parts, of which one has most of the noise.
@@ -24,9 +26,14 @@ struct PixelLight {
     /// What rays to weak sources find beside what the solve knows of their visibility; may be negative.
     /// Smooth over an element but for the shadows of small things, and noisy.
     Rgb correction{0.0f};
+    float noise = 0.0f;  ///< standard error of its channel mean, lux
 
     Rgb sum() const { return glm::max(steady + correction, Rgb(0.0f)); }
 };
+
+/// Weight at which the correction of `b` may stand for that of `a`: 1 where they differ by less than their
+/// noise.
+float likeness(const PixelLight& a, const PixelLight& b);
 
 struct GatherRays {
     /// Most shadow rays to a source that brings all the light, and to all weak sources together.

@@ -1,6 +1,7 @@
 #include "core/transport/element_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/transport/gauss_points.h"
 
@@ -61,6 +62,77 @@ void setLane(base::Lanes3& v, int lane, const Vec3d& p) {
     v.z.set(lane, p.z);
 }
 
+// Sets the weights, whose sum becomes 1. Returns what it was.
+double setWeights(ElementPoints& e, const std::array<double, base::kLanes>& weight) {
+    double sum = 0.0;
+    for (const double w : weight) {
+        sum += w;
+    }
+    for (int i = 0; i < base::kLanes; ++i) {
+        e.weight.set(i, weight[static_cast<std::size_t>(i)] / sum);
+    }
+    return sum;
+}
+
+// Of an element with its corners and axis.
+void fillPlanar(ElementPoints& e) {
+    e.normal = {base::splat(e.axis.x), base::splat(e.axis.y), base::splat(e.axis.z)};
+    std::copy(e.corners.begin(), e.corners.end(), e.contour.begin());
+    e.contourCount = e.cornerCount;
+    const LocalPoints local = localPoints(e.cornerCount);
+    std::array<double, base::kLanes> weight = local.weight;
+    for (int i = 0; i < base::kLanes; ++i) {
+        const Vec2d at = local.at[static_cast<std::size_t>(i)];
+        setLane(e.position, i, planarPoint(e, at.x, at.y));
+        weight[static_cast<std::size_t>(i)] *= planarMeasure(e, at.x, at.y);
+    }
+    setWeights(e, weight);
+}
+
+// Likewise of a curved one, whose corners have the parameters `c`. Returns its mean area measure per
+// parameters.
+double fillCurved(ElementPoints& e, const surface::Surface& surface, const hierarchy::ElementName& name,
+                  const std::array<Vec2d, 4>& c) {
+    const LocalPoints local = localPoints(e.cornerCount);
+    std::array<double, base::kLanes> weight = local.weight;
+    for (int i = 0; i < base::kLanes; ++i) {
+        const Vec2d at = local.at[static_cast<std::size_t>(i)];
+        const Vec2d uv = e.cornerCount == 3 ? (1.0 - at.x - at.y) * c[0] + at.x * c[1] + at.y * c[2]
+                                            : (1.0 - at.y) * ((1.0 - at.x) * c[0] + at.x * c[1]) +
+                                                  at.y * ((1.0 - at.x) * c[3] + at.x * c[2]);
+        const surface::SurfacePoint p = surface.evaluate(name.patch, uv);
+        setLane(e.position, i, p.position);
+        setLane(e.normal, i, name.back ? -p.normal : p.normal);
+        weight[static_cast<std::size_t>(i)] *= p.jacobian;
+    }
+    constexpr double kArea = 4.0 / 3.0;
+    for (std::uint32_t i = 0; i < e.cornerCount; ++i) {
+        const std::uint32_t next = (i + 1) % e.cornerCount;
+        const Vec3d chord = 0.5 * (e.corners[i] + e.corners[next]);
+        const Vec3d middle = surface.evaluate(name.patch, 0.5 * (c[i] + c[next])).position;
+        e.contour[2 * i] = e.corners[i];
+        e.contour[2 * i + 1] = chord + kArea * (middle - chord);
+    }
+    e.contourCount = 2 * e.cornerCount;
+    return setWeights(e, weight);
+}
+
+// Corners' parameters in the order of the shape's corners, which run the other way round on a back side.
+std::array<Vec2d, 4> shapeOrder(const surface::Region& region, bool back) {
+    std::array<Vec2d, 4> c = region.corners;
+    if (back) {
+        std::reverse(c.begin(), c.begin() + region.cornerCount);
+    }
+    return c;
+}
+
+double parameterArea(const surface::Region& region) {
+    const auto& c = region.corners;
+    const auto cross = [](const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; };
+    return 0.5 * std::abs(region.cornerCount == 3 ? cross(c[1] - c[0], c[2] - c[0])
+                                                  : cross(c[2] - c[0], c[3] - c[1]));
+}
+
 }  // namespace
 
 const std::array<base::Vec2d, base::kLanes>& localPointCoordinates(std::uint32_t cornerCount) {
@@ -88,52 +160,42 @@ ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id
     e.area = static_cast<double>(shape.area);
     e.isPlanar = shape.isPlanar;
     e.isFlat = shape.isPlanar || shape.halfAngle < kFlatAngle;
-    const LocalPoints local = localPoints(e.cornerCount);
-    std::array<double, base::kLanes> weight = local.weight;
     if (e.isPlanar) {
-        e.normal = {base::splat(e.axis.x), base::splat(e.axis.y), base::splat(e.axis.z)};
-        std::copy(e.corners.begin(), e.corners.end(), e.contour.begin());
-        e.contourCount = e.cornerCount;
-        for (int i = 0; i < base::kLanes; ++i) {
-            const Vec2d at = local.at[static_cast<std::size_t>(i)];
-            setLane(e.position, i, planarPoint(e, at.x, at.y));
-            weight[static_cast<std::size_t>(i)] *= planarMeasure(e, at.x, at.y);
-        }
+        fillPlanar(e);
     } else {
         const hierarchy::ElementName name = hierarchy.name(id);
-        const surface::Surface& surface = hierarchy.surfaceOf(id);
-        const surface::Region region = hierarchy.region(id);
-        // In the order of the shape's corners, which run the other way round on a back side.
-        std::array<Vec2d, 4> c = region.corners;
-        if (name.back) {
-            std::reverse(c.begin(), c.begin() + region.cornerCount);
-        }
-        for (int i = 0; i < base::kLanes; ++i) {
-            const Vec2d at = local.at[static_cast<std::size_t>(i)];
-            const Vec2d uv = region.cornerCount == 3 ? (1.0 - at.x - at.y) * c[0] + at.x * c[1] + at.y * c[2]
-                                                     : (1.0 - at.y) * ((1.0 - at.x) * c[0] + at.x * c[1]) +
-                                                           at.y * ((1.0 - at.x) * c[3] + at.x * c[2]);
-            const surface::SurfacePoint p = surface.evaluate(name.patch, uv);
-            setLane(e.position, i, p.position);
-            setLane(e.normal, i, name.back ? -p.normal : p.normal);
-            weight[static_cast<std::size_t>(i)] *= p.jacobian;
-        }
-        constexpr double kArea = 4.0 / 3.0;
-        for (std::uint32_t i = 0; i < e.cornerCount; ++i) {
-            const std::uint32_t next = (i + 1) % e.cornerCount;
-            const Vec3d chord = 0.5 * (e.corners[i] + e.corners[next]);
-            const Vec3d middle = surface.evaluate(name.patch, 0.5 * (c[i] + c[next])).position;
-            e.contour[2 * i] = e.corners[i];
-            e.contour[2 * i + 1] = chord + kArea * (middle - chord);
-        }
-        e.contourCount = 2 * e.cornerCount;
+        fillCurved(e, hierarchy.surfaceOf(id), name, shapeOrder(hierarchy.region(id), name.back));
     }
-    double sum = 0.0;
-    for (const double w : weight) {
-        sum += w;
+    return e;
+}
+
+ElementPoints makeRegionPoints(const hierarchy::Hierarchy& hierarchy, NodeId element,
+                               const surface::Region& region) {
+    const hierarchy::Shape& shape = hierarchy.shape(element);
+    const hierarchy::ElementName name = hierarchy.name(element);
+    const surface::Surface& surface = hierarchy.surfaceOf(element);
+    const std::array<Vec2d, 4> c = shapeOrder(region, name.back);
+    ElementPoints e;
+    e.cornerCount = region.cornerCount;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        e.corners[i] = surface.evaluate(name.patch, c[std::min(i, e.cornerCount - 1)]).position;
+        e.center += 0.25 * e.corners[i];
+    }
+    e.axis = Vec3d(shape.axis);
+    e.isPlanar = shape.isPlanar;
+    e.isFlat = shape.isPlanar || shape.halfAngle < kFlatAngle;
+    if (e.isPlanar) {
+        fillPlanar(e);
+        for (std::uint32_t i = 2; i < e.cornerCount; ++i) {
+            e.area += 0.5 * glm::dot(e.axis, glm::cross(e.corners[i - 1] - e.corners[0],
+                                                        e.corners[i] - e.corners[0]));
+        }
+    } else {
+        e.area = parameterArea(region) * fillCurved(e, surface, name, c);
     }
     for (int i = 0; i < base::kLanes; ++i) {
-        e.weight.set(i, weight[static_cast<std::size_t>(i)] / sum);
+        e.radius = std::max(
+            e.radius, glm::distance(e.center, Vec3d(e.position.x[i], e.position.y[i], e.position.z[i])));
     }
     return e;
 }

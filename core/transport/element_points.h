@@ -32,6 +32,9 @@ struct alignas(base::kLanesAlignment) ElementPoints {
 };
 
 ElementPoints makeElementPoints(const hierarchy::Hierarchy& hierarchy, NodeId id);
+/// The same for a region within that of an element.
+ElementPoints makeRegionPoints(const hierarchy::Hierarchy& hierarchy, NodeId element,
+                               const surface::Region& region);
 
 /// Coordinates of the eight points within their element, 0 in the middle, in the order of the shape's
 /// corners. Quads: (2 s - 1, 2 t - 1). Triangles: (u - 1/3, v - 1/3) with u, v the barycentric weights of
