@@ -218,13 +218,40 @@ void SourceFinder::addCluster(Search& search, NodeId source, bool isOpen, float 
     search.keep(kept, values, isOpen);
 }
 
+// A solid hides all places that were looked at, though not the slivers beside it, which rays find. They are
+// lit as what is around.
+void SourceFinder::addHidden(Search& search, NodeId source, double distance) {
+    if (distance > search.receiver.radius + kNearGap * toDouble(h_.shape(source).radius)) {
+        return;
+    }
+    NodeId lit = h_.parent(source);
+    while (lit != NodeId::none && h_.kind(lit) == NodeKind::element && h_.shape(lit).exposed <= 0.0f) {
+        lit = h_.parent(lit);
+    }
+    if (lit == NodeId::none || h_.kind(lit) != NodeKind::element) {
+        return;
+    }
+    Source kept;
+    kept.node = source;
+    kept.visibility = 0.0f;
+    kept.radiosity = h_.light(lit).radiosity;
+    for (unsigned k = 0; k < 4; ++k) {
+        const SourcePart& part = points_.of(source, surface::childPath(surface::kRootPath, k));
+        kept.points = &part.points;
+        kept.region = &part.region;
+        search.keep(kept, computeFactors(search.receiver.position, search.receiver.normal, part.points),
+                    false);
+    }
+}
+
 void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float visibility) {
     const hierarchy::Shape& shape = h_.shape(source);
     const transport::ElementPoints& receiver = search.receiver;
+    const double distance = glm::distance(Vec3d(shape.center), receiver.center);
     if (shape.exposed <= 0.0f) {
+        addHidden(search, source, distance);
         return;
     }
-    const double distance = glm::distance(Vec3d(shape.center), receiver.center);
     const transport::ElementPoints& points = points_.of(source);
     Lanes factors = computeFactors(receiver.position, receiver.normal, points);
     const bool isPartlyHidden = transport::isPartlyHidden(shape);

@@ -74,6 +74,7 @@ class SourceFinder {
     void add(Search& search, NodeId source, bool isOpen, float visibility);
     void addCluster(Search& search, NodeId source, bool isOpen, float visibility);
     void addElement(Search& search, NodeId source, bool isOpen, float visibility);
+    void addHidden(Search& search, NodeId source, double distance);
     void addParts(Search& search, const Source& whole, transport::Path part, const CellLight* light,
                   bool isOpen);
     bool isSeenWithin(const Search& search, NodeId leaf, const transport::ElementPoints& points,

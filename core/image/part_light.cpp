@@ -23,20 +23,24 @@ base::Vec2d middleOf(const surface::Region& region) {
     return sum / static_cast<double>(region.cornerCount);
 }
 
-// What is dark where a solid stands on it tells nothing of the sliver beside the solid.
-constexpr float kDark = 0.01f;
+// What is dark where a solid stands on it tells nothing of the sliver beside the solid. Its light is known to
+// no more than the noise.
+constexpr float kDark = 0.1f;
 bool isInside(const rays::RayScene& rays, const PixelPoint& point) {
     const auto hit = rays.closest(rays.halfLine(point.position, point.normal, point.normal));
     return hit && hit->back;
 }
 
-Rgb withoutNoise(std::span<const PixelLight> lights, std::size_t i) {
+Rgb withoutNoise(const std::array<PixelLight, kCells>& lights, const std::array<bool, kCells>& isHidden,
+                 std::size_t i) {
     Rgb correction(0.0f);
     float weights = 0.0f;
-    for (const PixelLight& other : lights) {
-        const float weight = likeness(lights[i], other);
-        correction += weight * other.correction;
-        weights += weight;
+    for (std::size_t j = 0; j < kCells; ++j) {
+        if (!isHidden[j]) {
+            const float weight = likeness(lights[i], lights[j]);
+            correction += weight * lights[j].correction;
+            weights += weight;
+        }
     }
     return glm::max(lights[i].steady + correction / weights, Rgb(0.0f));
 }
@@ -72,16 +76,17 @@ std::unique_ptr<CellLight> PartLight::gather(NodeId leaf) {
         gather_.gather(sources, std::span(points).subspan(first, PixelGather::kPoints),
                        std::span(found).subspan(first, PixelGather::kPoints));
     }
-    auto light = std::make_unique<CellLight>();
     std::array<bool, kCells> isHidden{};
-    Rgb sum(0.0f);
-    float count = 0.0f;
     for (std::size_t i = 0; i < kCells; ++i) {
         isHidden[i] = base::channelMean(found[i].sum()) <= kDark * base::channelMean(mean.irradiance) &&
                       isInside(problem_.rays, points[i]);
-        const Rgb irradiance = withoutNoise(found, i);
-        (*light)[i] = mean.emission + mean.reflectance * irradiance;
+    }
+    auto light = std::make_unique<CellLight>();
+    Rgb sum(0.0f);
+    float count = 0.0f;
+    for (std::size_t i = 0; i < kCells; ++i) {
         if (!isHidden[i]) {
+            (*light)[i] = mean.emission + mean.reflectance * withoutNoise(found, isHidden, i);
             sum += (*light)[i];
             count += 1.0f;
         }
