@@ -165,30 +165,28 @@ void SourceFinder::add(Search& search, NodeId source, bool isOpen, float visibil
 
 void SourceFinder::addCluster(Search& search, NodeId source, bool isOpen, float visibility) {
     const hierarchy::Shape& shape = h_.shape(source);
-    const hierarchy::Light& light = h_.light(source);
     const auto radius = toDouble(shape.radius);
     const double distance =
         glm::distance(Vec3d(shape.center), search.receiver.center) - search.receiver.radius;
     const bool isFar = shape.area > 0.0f && distance > kClusterGap * radius;
     const double upper =
         isFar ? toDouble(shape.exposedArea()) / (base::kPi * (distance - radius) * (distance - radius)) : 1.0;
-    if (!isFar ||
-        static_cast<float>(upper) * base::channelMean(light.radiosity) > kOpenCluster * search.reference) {
+    if (!isFar || static_cast<float>(upper) * base::channelMean(h_.light(source).radiosity) >
+                      kOpenCluster * search.reference) {
         for (unsigned c = 0; c < 2; ++c) {
             add(search, h_.child(source, c), isOpen, visibility);
         }
         return;
     }
     const transport::ClusterPoints& points = clusterPoints(source);
-    std::array<double, kLanes> factors{};
-    Vec3d colour(0.0);
+    Lanes factors = base::splat(0.0);
+    Vec3d light(0.0);
+    double all = 0.0;
     for (unsigned k = 0; k < transport::kClusterPoints; ++k) {
         const unsigned block = k / kLanes;
         const int at = static_cast<int>(k % kLanes);
         const Vec3d y = lane(points.position[block], at);
         const Vec3d m = lane(points.normal[block], at);
-        const Rgb& radiosity = h_.light(h_.patches()[points.patch[k]]).radiosity;
-        const double brightness = toDouble(base::channelMean(radiosity));
         double sum = 0.0;
         for (int i = 0; i < kLanes; ++i) {
             const Vec3d d = y - lane(search.receiver.position, i);
@@ -196,26 +194,22 @@ void SourceFinder::addCluster(Search& search, NodeId source, bool isOpen, float 
                 std::max(0.0, glm::dot(lane(search.receiver.normal, i), d)) * std::max(0.0, -glm::dot(m, d));
             const double r2 = glm::dot(d, d);
             const double kernel = points.area[block][at] * cosines / (base::kPi * r2 * r2);
-            factors[static_cast<std::size_t>(i)] += kernel * brightness;
+            factors.set(i, factors[i] + kernel);
             sum += kernel;
         }
-        colour += sum * Vec3d(radiosity);
+        light += sum * Vec3d(h_.light(h_.patches()[points.patch[k]]).radiosity);
+        all += sum;
     }
-    const double mean = (colour.x + colour.y + colour.z) / 3.0;
-    if (!(mean > 0.0)) {
+    if (!(all > 0.0) || (light == Vec3d(0.0) && !keepsDark_)) {
         return;
     }
-    // As one source of brightness 1 and the mean colour.
+    // As one source of the mean radiosity that is seen.
     Source kept;
     kept.node = source;
     kept.visibility = visibility;
-    kept.radiosity = Rgb(colour / mean);
-    Lanes values;
-    for (int i = 0; i < kLanes; ++i) {
-        values.set(i, factors[static_cast<std::size_t>(i)]);
-    }
-    kept.smooth = search.found.fit.fit(values);
-    search.keep(kept, values, isOpen);
+    kept.radiosity = Rgb(light / all);
+    kept.smooth = search.found.fit.fit(factors);
+    search.keep(kept, factors, isOpen);
 }
 
 // A solid hides all places that were looked at, though not the slivers beside it, which rays find. They are
@@ -266,7 +260,7 @@ void SourceFinder::addElement(Search& search, NodeId source, bool isOpen, float 
         }
         return;
     }
-    if (!(largestLane(factors) > 0.0f) || light.radiosity == Rgb(0.0f)) {
+    if (!(largestLane(factors) > 0.0f) || (light.radiosity == Rgb(0.0f) && !keepsDark_)) {
         return;
     }
     Source kept;
@@ -339,7 +333,7 @@ void SourceFinder::addParts(Search& search, const Source& whole, transport::Path
         }
         kept.points = &seen.points;
         kept.region = &seen.region;
-        if (kept.radiosity != Rgb(0.0f)) {
+        if (kept.radiosity != Rgb(0.0f) || keepsDark_) {
             search.keep(kept, factors, isOpen && !isHidden);
         }
     }
@@ -349,6 +343,7 @@ SourceFinder::SourceFinder(const solve::Problem& problem, SourcePoints& points, 
     : problem_(problem),
       h_(problem.hierarchy),
       points_(points),
+      keepsDark_(!problem.hierarchy.reached().isOpen),
       partLight_(nearLight == NearLight::gathered ? std::make_unique<PartLight>(problem, points) : nullptr) {}
 
 SourceFinder::SourceFinder(SourceFinder&&) noexcept = default;

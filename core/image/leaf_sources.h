@@ -86,6 +86,8 @@ class SourceFinder {
     const solve::Problem& problem_;
     const hierarchy::Hierarchy& h_;
     SourcePoints& points_;
+    /// In closed scenes also those that send nothing: all that a point sees is known.
+    bool keepsDark_;
     std::unique_ptr<PartLight> partLight_;
     std::unordered_map<NodeId, std::unique_ptr<transport::ClusterPoints>> clusterPoints_;
 };

@@ -39,6 +39,10 @@ Vec2d shiftOf(std::uint64_t key) {
     return {base::toUnit(base::mix(key)), base::toUnit(base::mix(key + 0x9e3779b97f4a7c15ULL))};
 }
 
+/// Part of the mean brightness that a dark source counts for where rays are shared.
+constexpr double kDarkPart = 0.25;
+/// More than this part of what a point sees is no noise, but something that nobody knows of.
+constexpr double kMostMissing = 0.1;
 /// Fall of likeness with the square of the difference in standard errors, and the least of these as a part of
 /// the irradiance.
 constexpr float kDoubt = 0.25f;
@@ -165,55 +169,85 @@ void PixelGather::aimWeak(const LeafSources& sources, const PixelPoint& point, d
         if (!(kernel > 0.0)) {
             continue;
         }
-        // Relative to the source's mean, whose brightness `weight` has.
+        // Relative to the weight. The factors stand in it with their mean over the source.
         Rgb light = radiosity * static_cast<float>(kernel / weight);
-        const float brightness = base::channelMean(light);
-        if (brightness > static_cast<float>(kMostWeight)) {
-            light *= static_cast<float>(kMostWeight) / brightness;
+        auto factor = static_cast<float>(kernel / weight);
+        const float most = static_cast<float>(kMostWeight);
+        const float heaviest = std::max(base::channelMean(light), factor * weakFloor_);
+        if (heaviest > most) {
+            light *= most / heaviest;
+            factor *= most / heaviest;
         }
-        weakRays_.push_back({light, source.visibility});
+        weakRays_.push_back({light, factor, source.visibility});
         rays_.push_back(problem_.rays.segment(point.position, point.normal, y.position, y.normal));
         weights_.push_back(0.0);
     }
 }
 
 // What the solve knows of the sources' visibility, corrected by what the rays find of it at this point: where
-// it knows all, as where nothing hides anything, no noise is left.
-PixelLight PixelGather::sumWeak(const LeafSources& sources) const {
+// it knows all, as where nothing hides anything, no noise is left. In a closed scene it is also known what
+// the form factors of all that is seen sum up to; `missing` is what the others leave of that. What the rays
+// find more or less than that is noise, and so is the light that it goes with.
+PixelLight PixelGather::sumWeak(const LeafSources& sources, const base::Lanes* factors, int lane,
+                                double missing) const {
     Rgb unoccluded(0.0f);
+    double factorSum = 0.0;
     PixelLight result;
-    for (std::size_t j = 0; j < weakWeights_.size(); ++j) {
-        if (weakWeights_[j] > 0.0f) {
-            const Source& source = sources.weak[j];
-            const Rgb light = source.radiosity * (weakWeights_[j] / source.brightness);
+    for (std::size_t j = 0; j < sources.weak.size(); ++j) {
+        const Source& source = sources.weak[j];
+        const auto factor = static_cast<float>(factors[j][lane]);
+        if (factor > 0.0f) {
+            const Rgb light = source.radiosity * factor;
             unoccluded += light;
+            factorSum += static_cast<double>(factor);
             result.steady += source.visibility * light;
+            missing -= static_cast<double>(source.visibility * factor);
         }
     }
     Rgb all(0.0f);
     Rgb surplus(0.0f);
+    float allFactors = 0.0f;
+    float surplusFactors = 0.0f;
+    Rgb together(0.0f);
     float squares = 0.0f;
-    float before = 0.0f;
+    const auto moreOf = [&](std::size_t i) {
+        return (weakBlocked_[i] == 0 ? 1.0f : 0.0f) - weakRays_[i].expected;
+    };
     for (std::size_t i = 0; i < weakRays_.size(); ++i) {
         const WeakRay& ray = weakRays_[i];
-        const Rgb more = ((blocked_[firstWeak_ + i] == 0 ? 1.0f : 0.0f) - ray.expected) * ray.light;
+        const float more = moreOf(i);
         all += ray.light;
-        surplus += more;
-        const float here = base::channelMean(more);
-        if (i > 0) {
-            squares += (here - before) * (here - before);
-        }
-        before = here;
+        allFactors += ray.factor;
+        surplus += more * ray.light;
+        surplusFactors += more * ray.factor;
+        together += more * more * ray.factor * ray.light;
+        squares += more * more * ray.factor * ray.factor;
     }
     for (int c = 0; c < 3; ++c) {
         if (all[c] > 0.0f) {
             result.correction[c] = unoccluded[c] * surplus[c] / all[c];
         }
     }
+    Rgb slope(0.0f);
+    if (isClosed_ && allFactors > 0.0f) {
+        // Light for each unit of form factor, by regression over the rays where these found something new.
+        slope = squares > 0.0f ? together / squares : all / allFactors;
+        missing -= factorSum * static_cast<double>(surplusFactors / allFactors);
+        result.correction += slope * static_cast<float>(std::clamp(missing, -kMostMissing, kMostMissing));
+    }
     const float brightness = base::channelMean(all);
     if (brightness > 0.0f) {
         // Neighbouring strata stand for each other (Cochran 1977, section 5A.12).
-        result.noise = base::channelMean(unoccluded) * std::sqrt(0.5f * squares) / brightness;
+        const float slopeMean = base::channelMean(slope);
+        float differences = 0.0f;
+        float before = 0.0f;
+        for (std::size_t i = 0; i < weakRays_.size(); ++i) {
+            const WeakRay& ray = weakRays_[i];
+            const float here = moreOf(i) * (base::channelMean(ray.light) - slopeMean * ray.factor);
+            differences += i > 0 ? (here - before) * (here - before) : 0.0f;
+            before = here;
+        }
+        result.noise = base::channelMean(unoccluded) * std::sqrt(0.5f * differences) / brightness;
     }
     return result;
 }
@@ -280,24 +314,40 @@ Vec3d PixelGather::addLights(const LeafSources& sources, const PixelPoint& point
     return sum;
 }
 
+// Weights by which rays are shared among weak sources: by light, and in closed scenes, where all that is seen
+// must add up, dark ones have their part too. Returns their light, mean of the channels, unoccluded.
+double PixelGather::weighWeak(const LeafSources& sources, const base::Lanes* factors, int lane) {
+    weakWeights_.resize(sources.weak.size());
+    double light = 0.0;
+    double all = 0.0;
+    for (std::size_t j = 0; j < sources.weak.size(); ++j) {
+        const double factor = factors[j][lane];
+        all += factor;
+        light += factor * static_cast<double>(sources.weak[j].brightness);
+    }
+    weakFloor_ = isClosed_ && all > 0.0 ? static_cast<float>(kDarkPart * light / all) : 0.0f;
+    for (std::size_t j = 0; j < sources.weak.size(); ++j) {
+        weakWeights_[j] = static_cast<float>(factors[j][lane]) * (sources.weak[j].brightness + weakFloor_);
+    }
+    return light;
+}
+
 PixelLight PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index) {
     Vec3d sum = addLights(sources, point);
     const int lane = static_cast<int>(index);
     const base::Lanes* openFactors = factors_.data();
     const base::Lanes* strongFactors = openFactors + sources.open.size();
     const base::Lanes* weakFactors = strongFactors + sources.strong.size();
+    // The surface itself hides what lies below it.
+    double missing = 0.5 * (1.0 + glm::dot(point.normal, point.shading));
     for (std::size_t j = 0; j < sources.open.size(); ++j) {
         sum += openFactors[j][lane] * Vec3d(sources.open[j].radiosity);
+        missing -= openFactors[j][lane];
     }
     rays_.clear();
     weights_.clear();
     bundles_.clear();
-    weakWeights_.resize(sources.weak.size());
-    double weak = 0.0;
-    for (std::size_t j = 0; j < sources.weak.size(); ++j) {
-        weakWeights_[j] = static_cast<float>(weakFactors[j][lane]) * sources.weak[j].brightness;
-        weak += static_cast<double>(weakWeights_[j]);
-    }
+    const double weak = weighWeak(sources, weakFactors, lane);
     double total = weak + (sum.x + sum.y + sum.z) / 3.0;
     for (std::size_t j = 0; j < sources.strong.size(); ++j) {
         const double factor = strongFactors[j][lane];
@@ -314,7 +364,7 @@ PixelLight PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& 
     }
     aimWeak(sources, point, weak / total);
     trace();
-    const PixelLight weakLight = sumWeak(sources);
+    weakBlocked_.assign(blocked_.begin() + static_cast<std::ptrdiff_t>(firstWeak_), blocked_.end());
     for (Bundle& bundle : bundles_) {
         count(bundle);
     }
@@ -336,7 +386,9 @@ PixelLight PixelGather::gatherOne(const LeafSources& sources, const PixelPoint& 
                                       ? bundle.seen / bundle.all
                                       : static_cast<double>(sources.strong[bundle.source].visibility);
         sum += bundle.factor * visibility * Vec3d(sources.strong[bundle.source].radiosity);
+        missing -= bundle.factor * visibility;
     }
+    const PixelLight weakLight = sumWeak(sources, weakFactors, lane, missing);
     return {Rgb(sum) + weakLight.steady, weakLight.correction, weakLight.noise};
 }
 

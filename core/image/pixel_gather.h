@@ -45,7 +45,8 @@ struct GatherRays {
 /// Gathers at points of one element. Not for several threads at once: it keeps its buffers.
 class PixelGather {
   public:
-    PixelGather(const solve::Problem& problem, const GatherRays& rays) : problem_(problem), budget_(rays) {}
+    PixelGather(const solve::Problem& problem, const GatherRays& rays)
+        : problem_(problem), budget_(rays), isClosed_(!problem.hierarchy.reached().isOpen) {}
 
     /// Most points at once: as many as kernels compute together.
     static constexpr std::size_t kPoints = base::kLanes;
@@ -72,15 +73,18 @@ class PixelGather {
     void findFactors(const LeafSources& sources, std::span<const PixelPoint> points);
     PixelLight gatherOne(const LeafSources& sources, const PixelPoint& point, std::size_t index);
     void aimStrong(const LeafSources& sources, const PixelPoint& point, Bundle& bundle, unsigned count);
+    double weighWeak(const LeafSources& sources, const base::Lanes* factors, int lane);
     void aimWeak(const LeafSources& sources, const PixelPoint& point, double share);
     void trace();
     void count(Bundle& bundle) const;
-    PixelLight sumWeak(const LeafSources& sources) const;
+    PixelLight sumWeak(const LeafSources& sources, const base::Lanes* factors, int lane,
+                       double missing) const;
     Vec3d addLights(const LeafSources& sources, const PixelPoint& point);
     Vec3d addSky(NodeId sky, const PixelPoint& point);
 
     const solve::Problem& problem_;
     GatherRays budget_;
+    bool isClosed_;
     std::uint64_t rayCount_ = 0;
     /// Form factors of the sources at the points, unoccluded: the open ones, the strong and the weak.
     std::vector<base::Lanes> factors_;
@@ -88,15 +92,18 @@ class PixelGather {
     std::vector<rays::Ray> rays_;
     std::vector<double> weights_;
     std::vector<std::uint8_t> blocked_;
-    std::vector<float> weakWeights_;
-    /// A ray to a weak source: what it would bring, relative to all of them, and how likely the solve takes
-    /// it to arrive.
+    std::vector<float> weakWeights_;  ///< by which weak sources are chosen
+    /// A ray to a weak source: what it would bring and its form factor, relative to the weights, and how
+    /// likely the solve takes it to arrive.
     struct WeakRay {
         Rgb light{0.0f};
+        float factor = 0.0f;
         float expected = 0.0f;
     };
     std::vector<WeakRay> weakRays_;
     std::size_t firstWeak_ = 0;
+    float weakFloor_ = 0.0f;  ///< brightness that dark sources count for
+    std::vector<std::uint8_t> weakBlocked_;
 };
 
 }  // namespace fluxwalk::image
