@@ -17,6 +17,7 @@
 #include "core/cli/verify_picture.h"
 #include "core/cli/verify_report.h"
 #include "core/image/chart.h"
+#include "core/image/final_gather.h"
 #include "core/image/sensors.h"
 #include "core/io/image_write.h"
 #include "core/io/sensors_csv.h"
@@ -149,6 +150,22 @@ void dropDark(SeenPoints& seen, const solve::Problem& problem) {
     }
 }
 
+// Irradiance in lux that a still of one sample a pixel gathers at some of these.
+std::vector<base::Rgb> lightOfStill(const solve::Problem& problem, const scene::Camera& camera,
+                                    const ViewArguments& view, std::span<const std::size_t> pixels) {
+    image::StillOptions options;
+    options.width = view.width;
+    options.height = view.height;
+    options.samples = 1;
+    const image::Still still = image::takeStill(problem, camera, options);
+    std::vector<base::Rgb> light;
+    for (const std::size_t pixel : pixels) {
+        light.emplace_back(still.irradiance[3 * pixel], still.irradiance[3 * pixel + 1],
+                           still.irradiance[3 * pixel + 2]);
+    }
+    return light;
+}
+
 // Relative differences of a solution from the reference at what a camera sees, as a picture.
 ExitCode drawDifferences(const VerifyArguments& arguments) {
     scene::Camera camera;
@@ -156,9 +173,15 @@ ExitCode drawDifferences(const VerifyArguments& arguments) {
         runSolver("verify", arguments.scene, arguments.solver, arguments.output,
                   [&](const scene::Scene& scene) { camera = chooseView(arguments.view, scene); });
     const solve::Problem& problem = solved.solver->problem();
-    SeenPoints seen = lookThrough(camera, arguments.view, problem.rays, *problem.scene);
-    dropDark(seen, problem);
-    const std::vector<base::Rgb> values = image::measure(*solved.solver, seen.sensors);
+    SeenPoints seen = arguments.view.isOfStill
+                          ? lookAsStill(camera, arguments.view, problem)
+                          : lookThrough(camera, arguments.view, problem.rays, *problem.scene);
+    if (!arguments.view.isOfStill) {
+        dropDark(seen, problem);
+    }
+    const std::vector<base::Rgb> values = arguments.view.isOfStill
+                                              ? lightOfStill(problem, camera, arguments.view, seen.pixels)
+                                              : image::measure(*solved.solver, seen.sensors);
     const std::shared_ptr<const scene::Scene> lit =
         scene::relightScene(problem.scene, solved.solver->options().lighting);
     reference::IrradianceTracer tracer(*lit, problem.rays, problem.executor, seen.sensors,
@@ -180,8 +203,10 @@ ExitCode drawDifferences(const VerifyArguments& arguments) {
     for (std::size_t i = 0; i < differences.size(); ++i) {
         pixels[seen.pixels[i]] = differences[i];
     }
-    const image::Picture picture = image::drawDifference(arguments.view.width, arguments.view.height, pixels,
-                                                         image::chooseDifferenceRange(differences));
+    const std::vector<double> shown =
+        image::blurKnown(arguments.view.width, arguments.view.height, pixels, arguments.view.blur);
+    const image::Picture picture = image::drawDifference(arguments.view.width, arguments.view.height, shown,
+                                                         image::chooseDifferenceRange(shown));
     writeOutput([&] { io::writePng(arguments.values, picture.width, picture.height, picture.pixels); });
     deliver(report, arguments.output);
     return isStopped ? ExitCode::interrupted : solved.exitCode();
@@ -199,6 +224,9 @@ void requireSense(const VerifyArguments& arguments) {
         throw base::UsageError(
             "a picture of differences has its own points: no --compare, --sensors, --grid or "
             "--points with it");
+    }
+    if (!isPicture && (arguments.view.isOfStill || arguments.view.blur > 0.0)) {
+        throw base::UsageError("--still, --blur: only with a camera and -o DIFFERENCES.png");
     }
     if (arguments.isComparing && !arguments.measured.empty() &&
         (arguments.points > 0 || arguments.sensors.grid || !arguments.sensors.sensors.empty())) {

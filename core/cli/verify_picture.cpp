@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/cli/values.h"
+#include "core/image/sight.h"
 
 namespace fluxwalk::cli {
 
@@ -44,12 +45,45 @@ void addViewOptions(CLI::App& app, ViewArguments& arguments) {
                        arguments.width, arguments.height))
         ->type_name("WxH")
         ->group("Camera");
+    app.add_flag("--still", arguments.isOfStill,
+                 "With a camera: differences of the light that render gathers at the pixels, with normal and "
+                 "height maps, instead of what measure finds there.")
+        ->group("Camera");
+    app.add_option_function<std::string>(
+           "--blur",
+           [&arguments](const std::string& text) {
+               arguments.blur = parseNumberOption("--blur", text, 0.0, 100.0, "");
+           },
+           "With a camera: each pixel shows the mean difference around it, by a Gaussian of so many pixels: "
+           "the "
+           "noise of the reference goes, what is wrong in one direction stays. Default 0: none.")
+        ->type_name("PX")
+        ->group("Camera");
 }
 
 scene::Camera chooseView(const ViewArguments& arguments, const scene::Scene& scene) {
     scene::Camera camera = chooseCamera(arguments.camera, scene, [] { return scene::Camera{}; });
     camera.forward = glm::normalize(camera.forward);
     return camera;
+}
+
+SeenPoints lookAsStill(const scene::Camera& camera, const ViewArguments& arguments,
+                       const solve::Problem& problem) {
+    const image::Lens lens(camera, arguments.width, arguments.height);
+    SeenPoints seen;
+    for (std::uint32_t y = 0; y < arguments.height; ++y) {
+        for (std::uint32_t x = 0; x < arguments.width; ++x) {
+            const auto found = image::lookAlong(problem, lens.eye(), lens.directionAt({x + 0.5, y + 0.5}));
+            if (found && found->leaf != base::NodeId::none) {
+                seen.sensors.push_back({found->point.position, found->point.shading});
+                seen.pixels.push_back(std::size_t{y} * arguments.width + x);
+            }
+        }
+    }
+    if (seen.sensors.empty()) {
+        throw base::UsageError("the camera sees nothing that light reaches");
+    }
+    return seen;
 }
 
 SeenPoints lookThrough(const scene::Camera& camera, const ViewArguments& arguments,

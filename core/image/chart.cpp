@@ -165,6 +165,48 @@ Picture drawPlan(const Grid& grid, std::span<const Measurement> measured) {
     return picture;
 }
 
+std::vector<double> blurKnown(std::uint32_t width, std::uint32_t height, std::span<const double> values,
+                              double deviation) {
+    std::vector<double> blurred(values.begin(), values.end());
+    if (!(deviation > 0.0)) {
+        return blurred;
+    }
+    const auto reach = static_cast<std::int64_t>(std::ceil(3.0 * deviation));
+    std::vector<double> fall;
+    for (std::int64_t d = -reach; d <= reach; ++d) {
+        fall.push_back(std::exp(-0.5 * static_cast<double>(d * d) / (deviation * deviation)));
+    }
+    // Sums of values and of weights, along rows and then along columns.
+    std::vector<double> sums(values.size());
+    std::vector<double> weights(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        weights[i] = std::isfinite(values[i]) ? 1.0 : 0.0;
+        sums[i] = weights[i] > 0.0 ? values[i] : 0.0;
+    }
+    const auto along = [&](std::vector<double>& data, std::int64_t count, std::int64_t step) {
+        const std::vector<double> before = data;
+        for (std::int64_t i = 0; i < static_cast<std::int64_t>(data.size()); ++i) {
+            const std::int64_t at = i / step % count;
+            double sum = 0.0;
+            for (std::int64_t d = std::max(-reach, -at); d <= std::min(reach, count - 1 - at); ++d) {
+                sum += fall[static_cast<std::size_t>(d + reach)] *
+                       before[static_cast<std::size_t>(i + d * step)];
+            }
+            data[static_cast<std::size_t>(i)] = sum;
+        }
+    };
+    for (std::vector<double>* data : {&sums, &weights}) {
+        along(*data, width, 1);
+        along(*data, height, width);
+    }
+    for (std::size_t i = 0; i < blurred.size(); ++i) {
+        if (std::isfinite(blurred[i])) {
+            blurred[i] = sums[i] / weights[i];
+        }
+    }
+    return blurred;
+}
+
 double chooseDifferenceRange(std::span<const double> differences) {
     std::vector<double> sizes;
     for (const double d : differences) {

@@ -34,6 +34,11 @@ Picture drawPlan(const Grid& grid, std::span<const Measurement> measured);
 Picture drawDifference(std::uint32_t width, std::uint32_t height, std::span<const double> differences,
                        double range);
 
+/// Mean of the finite values around each finite one, weighed by a Gaussian of `deviation` pixels: what stays
+/// of differences when their noise is averaged away. 0 leaves all as it is.
+std::vector<double> blurKnown(std::uint32_t width, std::uint32_t height, std::span<const double> values,
+                              double deviation);
+
 /// A round range that 98 of 100 differences lie in.
 double chooseDifferenceRange(std::span<const double> differences);
 

@@ -90,6 +90,12 @@ TEST_F(Verify, DrawsDifferences) {
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(read("d.png").substr(1, 3), "PNG");
     EXPECT_LT(nlohmann::json::parse(read("d.json")).at("agreement").at("rms"), 0.5);
+    const Result still =
+        run({"verify", "cornell-box", "--camera", "front", "--size", "24x24", "--still", "--blur", "1",
+             "--error", "10%", "--paths", "1024", "-o", path("s.png"), "--report", path("s.json")});
+    ASSERT_EQ(still.code, 0) << still.err;
+    EXPECT_EQ(read("s.png").substr(1, 3), "PNG");
+    EXPECT_LT(nlohmann::json::parse(read("s.json")).at("agreement").at("rms"), 0.03);
     // From above, outside of the box, its dark outer side alone is seen.
     expectFailure({"verify", "cornell-box", "--eye", "0.3,3,0.3", "--target", "0.3,0,0.3", "--size", "8x8",
                    "--error", "30%", "--quiet", "-o", path("dark.png")},
@@ -174,6 +180,10 @@ TEST_F(Verify, BadInputGetsOneClearError) {
     expectFailure({"verify", "cornell-box", "--camera", "door", "-o", path("d.png")}, ExitCode::usage,
                   "has no camera 'door'");
     expectFailure({"verify", "cornell-box", "-o", path("d.png")}, ExitCode::usage, "needs --camera");
+    expectFailure({"verify", "cornell-box", "--still", "-o", path("d.csv")}, ExitCode::usage,
+                  "only with a camera");
+    expectFailure({"verify", "cornell-box", "--camera", "front", "--blur", "-1", "-o", path("d.png")},
+                  ExitCode::usage, "--blur");
     expectFailure({"verify", "cornell-box", "--eye", "0,0,0", "--target", "1,1,1", "--size", "4000x4000",
                    "-o", path("d.png")},
                   ExitCode::usage, "more than 2000000 pixels");

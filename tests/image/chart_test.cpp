@@ -1,6 +1,8 @@
 #include "core/image/chart.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +19,31 @@ Color at(const Picture& picture, std::uint32_t x, std::uint32_t y) {
 
 double lightness(const Color& c) {
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+TEST(Chart, BlurKeepsTheMeanAndLeavesOutWhatIsUnknown) {
+    constexpr std::uint32_t kWidth = 23;
+    constexpr std::uint32_t kHeight = 17;
+    std::vector<double> values(std::size_t{kWidth} * kHeight, 0.0);
+    values[8 * kWidth + 11] = 1.0;
+    const std::vector<double> spread = image::blurKnown(kWidth, kHeight, values, 1.5);
+    // 1 / (2 pi s^2) in the middle, by e^-2 less at twice the deviation.
+    EXPECT_NEAR(spread[8 * kWidth + 11], 1.0 / (2.0 * base::kPi * 2.25), 1e-3);
+    EXPECT_NEAR(spread[8 * kWidth + 14] / spread[8 * kWidth + 11], std::exp(-2.0), 1e-9);
+    EXPECT_NEAR(spread[5 * kWidth + 11], spread[8 * kWidth + 14], 1e-12);
+    EXPECT_EQ(image::blurKnown(kWidth, kHeight, values, 0.0), values);
+    std::fill(values.begin(), values.end(), 0.25);
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+        values[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    const std::vector<double> same = image::blurKnown(kWidth, kHeight, values, 2.0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i % 3 == 0) {
+            EXPECT_TRUE(std::isnan(same[i]));
+        } else {
+            EXPECT_NEAR(same[i], 0.25, 1e-12);
+        }
+    }
 }
 
 }  // namespace
