@@ -300,7 +300,7 @@ TEST(SessionStills, QuestionsAreAnsweredBetweenStrips) {
 TEST(SessionStills, EndWithTheSession) {
     std::atomic<bool> isFit = true;
     base::RandomStream random(5);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 50; ++i) {
         const auto job = std::make_shared<StillJob>(scene::Camera{}, sized(640, 640));
         {
             SolverSession session(counting(i % 2 == 0 ? 1 << 30 : 2, isFit), Options{}, {});
@@ -335,7 +335,7 @@ struct RealSession {
         };
         solving = solveWith(source);
         options.error = error;
-        still = sized(80, 70);
+        still = sized(64, 70);
     }
 
     std::shared_ptr<const scene::Scene> scene;
@@ -368,7 +368,7 @@ TEST(SessionStills, AreThoseOfTheSolution) {
     const Still expected = image::takeStill(real.solver->problem(), real.scene->cameras.front(), same);
     ASSERT_NE(job->still(), nullptr);
     expectSame(*job->still(), expected);
-    Collected collected(80, 70);
+    Collected collected(64, 70);
     collected.add(job->takeParts());
     EXPECT_EQ(collected.luminance, expected.luminance);
 }
@@ -401,7 +401,7 @@ TEST(SessionStills, LeaveTheSolveAsItIs) {
         return still;
     };
     SolverSession session(watched, disturbed.options, {});
-    for (int i = 0; session.status().phase == Phase::solving; ++i) {
+    for (int i = 0; i < 12 && session.status().phase == Phase::solving; ++i) {
         const auto job = std::make_shared<StillJob>(disturbed.scene->cameras.front(), disturbed.still);
         session.take(job);
         if (i % 3 == 2) {
