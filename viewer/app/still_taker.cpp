@@ -156,6 +156,7 @@ void StillTaker::finish(const Frame& frame) {
         return;
     }
     isFinished_ = true;
+    shown_.reset();
 }
 
 // Metering reads every pixel: beside the window, and only where somebody wants it.
@@ -208,7 +209,14 @@ void StillTaker::paintUnder(const Frame& frame, gl::PixelSize size) {
     under_ = std::make_unique<gl::RenderTarget>(window_.functions(), size,
                                                 window_.isSoftware() ? 1 : kSamples, gl::PixelFormat::full);
     under_->bind();
-    renderer_.drawLight(job_->camera(), static_cast<double>(info_.size.width) / info_.size.height);
+    if (isFinished_) {
+        // What is not done stays black, as in the file.
+        const gl::Functions& gl = window_.functions();
+        gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+        gl.Clear(GL_COLOR_BUFFER_BIT);
+    } else {
+        renderer_.drawLight(job_->camera(), static_cast<double>(info_.size.width) / info_.size.height);
+    }
     under_->resolve();
     underSolution_ = frame.solution;
     isOld_ = true;
