@@ -21,9 +21,9 @@ constexpr std::array kMoving{KeyLine{"W A S D, arrows", "walk, fly"},
 constexpr std::array kAround{KeyLine{"Alt drag, middle drag", "orbit about the point under the cursor"},
                              KeyLine{"wheel while orbiting", "nearer, farther"},
                              KeyLine{"G", "go to the object under the cursor"}};
-constexpr std::array kStills{KeyLine{"T", "gather a still of this view; then: large or in a corner"},
-                             KeyLine{"Esc", "still to the corner; close it when it is done"},
-                             KeyLine{"F12, Shift F12", "keep the large one as PNG, as EXR with layers"}};
+constexpr std::array kStills{KeyLine{"T", "gather a still; large or in a corner"},
+                             KeyLine{"Esc", "still to the corner, or closed if done"},
+                             KeyLine{"F12, Shift F12", "keep a large still as PNG, as EXR"}};
 constexpr std::array kPlaces{
     KeyLine{"B", "keep this view as a bookmark"}, KeyLine{"1 to 9", "go to a bookmark"},
     KeyLine{"R", "begin or end the recording of a path"}, KeyLine{"L", "play the last path, or stop it"}};
