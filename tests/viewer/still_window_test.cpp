@@ -12,11 +12,13 @@ using namespace std::chrono_literals;
 using testing::Picture;
 using testing::Pixel;
 
-/// The white wall of the box, and places of the bar below a large still: its right end, and its buttons.
+/// The white wall of the box, and the left end of the progress in the bar of a large still: as soon as some
+/// of it is done.
 constexpr int kWallX = 700;
 constexpr int kWallY = 300;
-constexpr int kBarX = 1100;
-constexpr int kBarY = 765;
+constexpr int kBarX = 627;
+constexpr int kBarY = 784;
+constexpr Pixel kProgress{245, 184, 92};
 /// The middle of a small still, and the first of its buttons. Nothing but background is there otherwise.
 constexpr int kSmallX = 1204;
 constexpr int kSmallY = 155;
@@ -28,7 +30,8 @@ int sumOf(const Pixel& p) {
 }
 bool hasBar(const Picture& p) {
     const Pixel bar = p.at(kBarX, kBarY);
-    return !p.bytes.empty() && sumOf(bar) < 150 && std::abs(bar.r - bar.b) < 12;
+    const auto isNear = [](int a, int b) { return std::abs(a - b) < 8; };
+    return isNear(bar.r, kProgress.r) && isNear(bar.g, kProgress.g) && isNear(bar.b, kProgress.b);
 }
 bool isSmall(const Picture& p) {
     return sumOf(p.at(kSmallX, kSmallY)) > 200;
