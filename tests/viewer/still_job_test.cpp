@@ -9,6 +9,7 @@
 
 #include "core/base/random.h"
 #include "core/scene/builders.h"
+#include "core/solve/state.h"
 #include "viewer/session/solver_session.h"
 
 namespace fluxwalk::session {
@@ -375,10 +376,8 @@ TEST(SessionStills, AreThoseOfTheSolution) {
 
 TEST(SessionStills, LeaveTheSolveAsItIs) {
     RealSession plain(0.05);
-    {
-        SolverSession session(plain.solving, plain.options, {});
-        session.wait();
-    }
+    SolverSession undisturbed(plain.solving, plain.options, {});
+    undisturbed.wait();
     RealSession disturbed(0.05);
     // Stills while it solves, one after the other, each compared with another one of the same moment.
     std::atomic<bool> isSolving = false;
@@ -419,6 +418,13 @@ TEST(SessionStills, LeaveTheSolveAsItIs) {
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(snapshot.meshes[i]->positions, expected[i]->positions);
         EXPECT_EQ(snapshot.meshes[i]->irradiance, expected[i]->irradiance);
+    }
+    const hierarchy::Hierarchy& nodes = disturbed.solver->problem().hierarchy;
+    const hierarchy::Hierarchy& plainNodes = plain.solver->problem().hierarchy;
+    ASSERT_EQ(nodes.nodeCount(), plainNodes.nodeCount());
+    for (std::uint32_t i = 0; i < nodes.nodeCount(); ++i) {
+        ASSERT_EQ(nodes.light(base::NodeId{i}).radiosity, plainNodes.light(base::NodeId{i}).radiosity);
+        ASSERT_EQ(nodes.light(base::NodeId{i}).irradiance, plainNodes.light(base::NodeId{i}).irradiance);
     }
     const solve::Statistics& a = snapshot.statistics;
     const solve::Statistics& b = plain.solver->statistics();

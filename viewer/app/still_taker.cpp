@@ -129,14 +129,17 @@ void StillTaker::tell(const session::StillStatus& status) {
     if (saver_.isBusy()) {
         info_.told = "being written";
     } else if (status.phase == StillPhase::waiting) {
-        info_.told = "waits for a first solution";
+        info_.told = "waits for the solver";
     } else if (status.phase == StillPhase::done) {
         info_.told = "done in " + cli::formatDuration(status.seconds);
     } else if (status.phase == StillPhase::cancelled) {
         const auto still = job_->still();
         info_.told = still ? fmt::format("{} rows of {}", still->rowsDone, still->height) : "cancelled";
     } else {
-        const double left = cli::estimateRemaining(status.progress, status.seconds);
+        // What is shown is two strips behind what is gathered.
+        const double gathered = status.progress + 2.0 * image::kTile / job_->options().height;
+        const double left =
+            status.progress > 0.0 ? cli::estimateRemaining(std::min(1.0, gathered), status.seconds) : -1.0;
         info_.told = fmt::format("{:.0f} %", 100.0 * status.progress) +
                      (left >= 0.0 ? ", " + cli::formatDuration(left) + " left" : "");
     }
