@@ -18,8 +18,10 @@ namespace {
 
 /// Longest side of what is sent to the GPU: enough for any window, and little beside an 8k still.
 constexpr std::uint32_t kLongestShown = 4096;
-/// Of the picture under a still, until it is made, where a graphics card draws.
+/// Of the picture under a still, and the seconds until another solution is shown there: it is drawn beside
+/// the window's own.
 constexpr int kSamples = 4;
+constexpr double kUnderTime = 1.0;
 
 // Side of the squares of pixels that are shown as one.
 std::uint32_t stepFor(std::uint32_t width, std::uint32_t height) {
@@ -134,7 +136,7 @@ void StillTaker::tell(const session::StillStatus& status) {
         info_.told = "done in " + cli::formatDuration(status.seconds);
     } else if (status.phase == StillPhase::cancelled) {
         const auto still = job_->still();
-        info_.told = still ? fmt::format("{} rows of {}", still->rowsDone, still->height) : "cancelled";
+        info_.told = still ? fmt::format("{} of {} rows done", still->rowsDone, still->height) : "cancelled";
     } else {
         // What is shown is two strips behind what is gathered.
         const double gathered = status.progress + 2.0 * image::kTile / job_->options().height;
@@ -209,8 +211,7 @@ void StillTaker::follow(const Frame& frame) {
 }
 
 void StillTaker::paintUnder(const Frame& frame, gl::PixelSize size) {
-    under_ = std::make_unique<gl::RenderTarget>(window_.functions(), size,
-                                                window_.isSoftware() ? 1 : kSamples, gl::PixelFormat::full);
+    under_ = std::make_unique<gl::RenderTarget>(window_.functions(), size, kSamples, gl::PixelFormat::full);
     under_->bind();
     if (isFinished_) {
         // What is not done stays black, as in the file.
@@ -222,6 +223,7 @@ void StillTaker::paintUnder(const Frame& frame, gl::PixelSize size) {
     }
     under_->resolve();
     underSolution_ = frame.solution;
+    underTime_ = frame.now;
     isOld_ = true;
 }
 
@@ -236,7 +238,7 @@ void StillTaker::paint(const Frame& frame) {
         shown_ =
             std::make_unique<gl::RenderTarget>(window_.functions(), size, 1, gl::PixelFormat::byte, false);
         paintUnder(frame, size);
-    } else if (!isFinished_ && underSolution_ != frame.solution) {
+    } else if (!isFinished_ && underSolution_ != frame.solution && frame.now > underTime_ + kUnderTime) {
         paintUnder(frame, size);
     }
     const render::StillPass::Look look{exposure(), settings_.draw.curve};

@@ -85,6 +85,7 @@ class StillTaker {
     std::unique_ptr<render::StillPass> pass_;
     std::unique_ptr<gl::RenderTarget> under_;
     std::uint64_t underSolution_ = 0;
+    double underTime_ = 0.0;
     std::unique_ptr<gl::RenderTarget> shown_;
     render::StillPass::Look look_;
     bool isOld_ = true;

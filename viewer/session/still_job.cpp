@@ -37,8 +37,8 @@ StillPart reduce(const image::Still& still, const image::StillTile& tile, std::u
 
 }  // namespace
 
-StillJob::StillJob(const scene::Camera& camera, const image::StillOptions& options, std::uint32_t step)
-    : camera_(camera), options_(options), step_(step) {
+StillJob::StillJob(scene::Camera camera, const image::StillOptions& options, std::uint32_t step)
+    : camera_(std::move(camera)), options_(options), step_(step) {
     FLUXWALK_CHECK(step > 0 && image::kTile % step == 0);
 }
 

@@ -44,7 +44,7 @@ using TakeStill = std::function<image::Still(const scene::Camera&, const image::
 class StillJob {
   public:
     /// `step`: the side of the squares of pixels that parts have the mean of; a power of two, 32 at most.
-    StillJob(const scene::Camera& camera, const image::StillOptions& options, std::uint32_t step = 1);
+    StillJob(scene::Camera camera, const image::StillOptions& options, std::uint32_t step = 1);
 
     const scene::Camera& camera() const { return camera_; }
     const image::StillOptions& options() const { return options_; }
