@@ -9,6 +9,7 @@
 
 #include "core/base/random.h"
 #include "core/scene/builders.h"
+#include "core/scene/lighting.h"
 #include "core/solve/state.h"
 #include "viewer/session/solver_session.h"
 
@@ -372,6 +373,29 @@ TEST(SessionStills, AreThoseOfTheSolution) {
     Collected collected(64, 70);
     collected.add(job->takeParts());
     EXPECT_EQ(collected.luminance, expected.luminance);
+}
+
+TEST(SessionStills, TurnedLightsWaitForThem) {
+    RealSession real(0.2);
+    SolverSession session(real.solving, real.options, {});
+    session.wait();
+    const double before = session.latest()->statistics.meanIrradiance;
+    StillOptions same = real.still;
+    same.seed = real.options.seed;
+    const Still expected = image::takeStill(real.solver->problem(), real.scene->cameras.front(), same);
+    const auto job = std::make_shared<StillJob>(real.scene->cameras.front(), real.still);
+    session.take(job);
+    waitFor([&] { return job->status().phase != StillPhase::waiting; });
+    Options dimmed = real.options;
+    for (const scene::LightSource& source : scene::listLightSources(*real.scene)) {
+        scene::setFactor(dimmed.lighting, source, base::Rgb(0.5f));
+    }
+    session.setOptions(dimmed);
+    waitFor([&] { return job->status().isOver(); });
+    ASSERT_NE(job->still(), nullptr);
+    expectSame(*job->still(), expected);
+    session.wait();
+    EXPECT_NEAR(session.latest()->statistics.meanIrradiance, 0.5 * before, 0.02 * before);
 }
 
 TEST(SessionStills, LeaveTheSolveAsItIs) {
