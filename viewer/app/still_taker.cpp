@@ -131,7 +131,7 @@ void StillTaker::tell(const session::StillStatus& status) {
     if (saver_.isBusy()) {
         info_.told = "being written";
     } else if (status.phase == StillPhase::waiting) {
-        info_.told = "waits for the solver";
+        info_.told = "waits for the solver; P: at once";
     } else if (status.phase == StillPhase::done) {
         info_.told = "done in " + cli::formatDuration(status.seconds);
     } else if (status.phase == StillPhase::cancelled) {
