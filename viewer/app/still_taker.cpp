@@ -142,8 +142,9 @@ void StillTaker::tell(const session::StillStatus& status) {
         const double gathered = status.progress + 2.0 * image::kTile / job_->options().height;
         const double left =
             status.progress > 0.0 ? cli::estimateRemaining(std::min(1.0, gathered), status.seconds) : -1.0;
-        info_.told = fmt::format("{:.0f} %", 100.0 * status.progress) +
-                     (left >= 0.0 ? ", " + cli::formatDuration(left) + " left" : "");
+        info_.told = fmt::format("{:.0f} %, {}", 100.0 * status.progress,
+                                 left >= 0.0 ? cli::formatDuration(left) + " left"
+                                             : cli::formatDuration(status.seconds) + " so far");
     }
 }
 
