@@ -128,7 +128,7 @@ void StillTaker::save(bool asLight, const Frame& frame) {
 
 void StillTaker::tell(const session::StillStatus& status) {
     using session::StillPhase;
-    if (saver_.isBusy()) {
+    if (isFinished_ && saver_.isBusy()) {
         info_.told = "being written";
     } else if (status.phase == StillPhase::waiting) {
         info_.told = "waits for the solver; P: at once";
