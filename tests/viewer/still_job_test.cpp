@@ -303,7 +303,7 @@ TEST(SessionStills, EndWithTheSession) {
     std::atomic<bool> isFit = true;
     base::RandomStream random(5);
     for (int i = 0; i < 50; ++i) {
-        const auto job = std::make_shared<StillJob>(scene::Camera{}, sized(640, 640));
+        const auto job = std::make_shared<StillJob>(scene::Camera{}, sized(320, 320));
         {
             SolverSession session(counting(i % 2 == 0 ? 1 << 30 : 2, isFit), Options{}, {});
             session.take(job);
@@ -399,10 +399,10 @@ TEST(SessionStills, TurnedLightsWaitForThem) {
 }
 
 TEST(SessionStills, LeaveTheSolveAsItIs) {
-    RealSession plain(0.05);
+    RealSession plain(0.1);
     SolverSession undisturbed(plain.solving, plain.options, {});
     undisturbed.wait();
-    RealSession disturbed(0.05);
+    RealSession disturbed(0.1);
     // Stills while it solves, one after the other, each compared with another one of the same moment.
     std::atomic<bool> isSolving = false;
     std::atomic<int> whileSolving = 0;
