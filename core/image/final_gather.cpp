@@ -19,8 +19,6 @@ namespace {
 
 using base::Vec2d;
 
-/// Side of a tile in pixels.
-constexpr std::uint32_t kTile = 32;
 /// A pixel gets more samples where its light and that of a neighbour differ by more than this part.
 constexpr float kContrast = 0.08f;
 /// Light is taken over between places whose normals differ by less (cosine), and whose distance from each
@@ -176,14 +174,7 @@ class StillMaker {
         }
     }
 
-    /// Pixels of a tile.
-    struct Tile {
-        std::uint32_t left = 0;
-        std::uint32_t top = 0;
-        std::uint32_t width = 0;
-        std::uint32_t height = 0;
-    };
-    Tile tileAt(std::uint32_t column, std::uint32_t row) const {
+    StillTile tileAt(std::uint32_t column, std::uint32_t row) const {
         const std::uint32_t left = column * kTile;
         const std::uint32_t top = row * kTile;
         return {left, top, std::min(kTile, options_.width - left), std::min(kTile, options_.height - top)};
@@ -198,7 +189,7 @@ class StillMaker {
     void lookAt(std::uint32_t columnIndex, Strip& strip) {
         ColumnGather& column = columns_[columnIndex];
         column.forget(strip.index);
-        const Tile tile = tileAt(columnIndex, strip.index);
+        const StillTile tile = tileAt(columnIndex, strip.index);
         std::vector<Seen> seen(static_cast<std::size_t>(tile.width) * tile.height);
         std::vector<Wanted> wanted;
         for (std::uint32_t y = 0; y < tile.height; ++y) {
@@ -253,7 +244,7 @@ class StillMaker {
     }
 
     void smooth(std::uint32_t columnIndex, std::uint32_t row) {
-        const Tile tile = tileAt(columnIndex, row);
+        const StillTile tile = tileAt(columnIndex, row);
         Strip& strip = strips_[row % strips_.size()];
         for (std::uint32_t y = 0; y < tile.height; ++y) {
             for (std::uint32_t x = 0; x < tile.width; ++x) {
@@ -336,7 +327,7 @@ class StillMaker {
     }
 
     void finish(std::uint32_t columnIndex, std::uint32_t row) {
-        const Tile tile = tileAt(columnIndex, row);
+        const StillTile tile = tileAt(columnIndex, row);
         std::vector<Extra> extras;
         for (std::uint32_t y = 0; y < tile.height; ++y) {
             for (std::uint32_t x = 0; x < tile.width; ++x) {
@@ -361,9 +352,13 @@ class StillMaker {
         for (std::size_t first = 0; first < extras.size(); first += options_.samples) {
             average(tile, std::span(extras).subspan(first, options_.samples));
         }
+        if (callbacks_.tileDone) {
+            callbacks_.tileDone(still_, tile);
+        }
     }
 
-    void lookBeside(const Tile& tile, std::uint32_t x, std::uint32_t y, std::vector<Extra>& extras) const {
+    void lookBeside(const StillTile& tile, std::uint32_t x, std::uint32_t y,
+                    std::vector<Extra>& extras) const {
         for (unsigned k = 0; k < options_.samples; ++k) {
             const Vec2d place = base::r2Point(k, Vec2d(0.5));
             Extra& extra = extras.emplace_back();
@@ -382,7 +377,7 @@ class StillMaker {
         }
     }
 
-    void average(const Tile& tile, std::span<const Extra> extras) {
+    void average(const StillTile& tile, std::span<const Extra> extras) {
         Middle mean;
         const std::uint32_t x = tile.left + extras.front().pixel % tile.width;
         const std::uint32_t y = tile.top + extras.front().pixel / tile.width;

@@ -27,6 +27,9 @@ struct StillCallbacks {
     std::function<void(double)> progress;
     /// Asked between tiles, on any thread; true leaves the rest of the picture black.
     std::function<bool()> shouldStop;
+    /// Called for each tile once its pixels are final, on any thread and on several at once. Of the still
+    /// only these pixels may be read.
+    std::function<void(const Still&, const StillTile&)> tileDone;
 };
 
 /// The picture that a camera takes of a solution. The same bits for any number of threads.

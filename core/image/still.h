@@ -24,4 +24,15 @@ struct Still {
     std::uint32_t rowsDone = 0;
 };
 
+/// Stills are made in tiles, whose left and top are multiples of this many pixels.
+inline constexpr std::uint32_t kTile = 32;
+
+/// Part of a still, in pixels from its upper left corner.
+struct StillTile {
+    std::uint32_t left = 0;
+    std::uint32_t top = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
 }  // namespace fluxwalk::image

@@ -106,13 +106,19 @@ void Run::sweep(int most, double residual) {
         if (statistics.residual <= residual) {
             loop_.sweeps = most;
         }
-        if (callbacks_.settled) {
-            callbacks_.settled();
-        }
+        settle();
         if (loop_.sweeps >= kSweepsAfterStop && isStopped()) {
             break;
         }
         publish(false);
+    }
+}
+
+void Run::settle() {
+    if (callbacks_.settled) {
+        const Clock::time_point before = Clock::now();
+        callbacks_.settled();
+        start_ += Clock::now() - before;
     }
 }
 
@@ -174,9 +180,7 @@ bool Run::isCalledAway(std::span<const Decision> underway) {
     if (isWhole || (problem_.statistics.history.empty() && loop_.ambient > 0.0)) {
         const Clock::time_point start = Clock::now();
         preview(problem_, underway, {kPreviewSweeps, kFirstResidual, isWhole ? 0.0 : loop_.ambient}, [this] {
-            if (callbacks_.settled) {
-                callbacks_.settled();
-            }
+            settle();
             deliver(false);
         });
         // The first one makes all meshes, which takes much longer than their light.

@@ -47,6 +47,8 @@ class Run {
 
   private:
     void takeNewOptions();
+    /// Lets others look at the solution; their time is not the solve's.
+    void settle();
     bool isTimeToPublish() const;
     void deliver(bool isFinished);
     /// Puts the next snapshot off after one that took so many seconds.
@@ -58,8 +60,8 @@ class Run {
     LoopState& loop_;
     Publisher& publisher_;
     double before_;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point due_;  ///< of the next snapshot
+    Clock::time_point start_ = Clock::now();  ///< later by the time of those who looked
+    Clock::time_point due_;                   ///< of the next snapshot
     bool wasStopped_ = false;
     bool isOutOfTime_ = false;
     bool isTurned_ = false;

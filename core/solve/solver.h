@@ -55,7 +55,7 @@ struct Callbacks {
     /// What snapshots shall tell beside the light.
     std::function<Detail()> detail;
     /// Called after sweeps, when links and light agree: what looks at the solver then sees a whole state, or
-    /// in the midst of a refinement what would be one, were it to end there.
+    /// in the midst of a refinement what would be one, were it to end there. Its time does not count.
     std::function<void()> settled;
     /// Asked at wave boundaries; true ends the solve with what it has.
     std::function<bool()> shouldStop;

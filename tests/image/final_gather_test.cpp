@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,31 @@ TEST(FinalGather, ThreadsDoNotMatter) {
     EXPECT_EQ(a.normal, b.normal);
     EXPECT_EQ(a.object, b.object);
     EXPECT_EQ(a.rays, b.rays);
+}
+
+TEST(FinalGather, HandsOutEveryTileOnceWithItsFinalPixels) {
+    const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene("cornell-box"));
+    const auto solver = solveFor(scene, 0.1, 3);
+    const image::StillOptions options = sized(100, 70, 2);
+    std::mutex mutex;
+    std::vector<float> handedOut(3 * 100 * 70, -1.0f);
+    image::StillCallbacks callbacks;
+    callbacks.tileDone = [&](const image::Still& still, const image::StillTile& tile) {
+        const std::lock_guard lock(mutex);
+        EXPECT_EQ(tile.left % image::kTile, 0u);
+        EXPECT_EQ(tile.top % image::kTile, 0u);
+        for (std::uint32_t y = tile.top; y < tile.top + tile.height; ++y) {
+            for (std::size_t i = 3 * (100 * y + tile.left); i < 3 * (100 * y + tile.left + tile.width); ++i) {
+                EXPECT_EQ(handedOut[i], -1.0f);
+                handedOut[i] = still.luminance[i];
+            }
+        }
+    };
+    const image::Still still =
+        image::takeStill(solver->problem(), scene->cameras.front(), options, callbacks);
+    EXPECT_EQ(handedOut, still.luminance);
+    EXPECT_EQ(still.luminance,
+              image::takeStill(solver->problem(), scene->cameras.front(), options).luminance);
 }
 
 TEST(FinalGather, StopsWithWhatIsDone) {

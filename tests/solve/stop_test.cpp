@@ -1,3 +1,6 @@
+#include <chrono>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "core/scene/builders.h"
@@ -54,6 +57,28 @@ TEST(Stop, keepsWhatIsSolved) {
         // Floor of table 3.10, as far as it got.
         EXPECT_NEAR(test::meanIrradiance(solver.problem(), 0).x / .009044, 1.0, .3) << allowed;
     }
+}
+
+// Whoever looks at the solution, for as long as it takes, uses up no time of the solve's limit.
+TEST(Stop, timeOfThoseWhoLookDoesNotCount) {
+    using Clock = std::chrono::steady_clock;
+    solve::Options options;
+    options.error = .1;
+    Solver solver = makeSolver(options);
+    Clock::duration looked{};
+    solve::Callbacks callbacks;
+    callbacks.settled = [&] {
+        const Clock::time_point start = Clock::now();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        looked += Clock::now() - start;
+    };
+    const double before = solver.statistics().times.total;
+    const Clock::time_point start = Clock::now();
+    solver.solve(callbacks);
+    const Clock::duration passed = Clock::now() - start;
+    EXPECT_GT(looked.count(), 0);
+    EXPECT_LE(solver.statistics().times.total - before,
+              std::chrono::duration<double>(passed - looked).count());
 }
 
 TEST(Stop, timeLimit) {

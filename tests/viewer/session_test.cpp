@@ -87,6 +87,18 @@ Solving withLooks(int waves) {
         }
         return snapshot;
     };
+    solving.look.isFitForStill = [] { return true; };
+    solving.look.takeStill = [](const scene::Camera&, const image::StillOptions& asked,
+                                const image::StillCallbacks& callbacks) {
+        image::Still still;
+        still.width = asked.width;
+        still.height = asked.height;
+        still.luminance.assign(std::size_t{3} * asked.width * asked.height, 1.0f);
+        callbacks.tileDone(still, {0, 0, asked.width, asked.height});
+        callbacks.progress(1.0);
+        still.rowsDone = callbacks.shouldStop() ? 0 : asked.height;
+        return still;
+    };
     return solving;
 }
 
@@ -309,6 +321,9 @@ TEST(SolverSession, Stress) {
     SolverSession session(withLooks(50), Options{}, [&] { ++wakes; });
     const auto drive = [&](std::uint64_t seed) {
         base::RandomStream random(seed);
+        image::StillOptions small;
+        small.width = small.height = 4;
+        std::shared_ptr<StillJob> still;
         std::uint64_t newest = 0;
         for (int i = 0; i < 5000; ++i) {
             const double choice = random.next();
@@ -330,6 +345,12 @@ TEST(SolverSession, Stress) {
                 session.ask(rayFrom(static_cast<float>(i)));
             } else if (choice < 0.7) {
                 session.setDetail({.elements = random.next() < 0.5, .clusters = random.next() < 0.5});
+            } else if (choice < 0.74) {
+                still = std::make_shared<StillJob>(scene::Camera{}, small);
+                session.take(still);
+            } else if (still && choice < 0.76) {
+                ASSERT_LE(still->takeParts().size(), 1u);
+                ASSERT_NE(still->status().phase, StillPhase::failed);
             } else if (const auto snapshot = session.latest()) {
                 ASSERT_GE(snapshot->sequence, newest);
                 newest = snapshot->sequence;

@@ -20,9 +20,9 @@ struct LookArguments {
 /// base::UsageError for what they cannot read.
 void addLookOptions(CLI::App& app, LookArguments& look);
 
-/// Adds the options that say how light becomes a picture: exposure, tone curve, samples.
+/// Adds the options that say how light becomes a picture: exposure, tone curve.
 void addToneOptions(CLI::App& app, LookArguments& look);
-/// The same, and those for what the GPU alone can draw.
+/// The same, and those for what the GPU draws: samples, glow.
 void addPictureOptions(CLI::App& app, LookArguments& look);
 
 /// A range as typed: two numbers, "A:B" with 0 <= A < B. Throws base::UsageError.

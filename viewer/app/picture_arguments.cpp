@@ -41,6 +41,10 @@ void addToneOptions(CLI::App& app, LookArguments& look) {
            "most on its middle.")
         ->type_name("EV")
         ->group(kGroup);
+}
+
+void addPictureOptions(CLI::App& app, LookArguments& look) {
+    addToneOptions(app, look);
     app.add_option_function<std::string>(
            "--samples",
            [&look](const std::string& text) {
@@ -49,10 +53,6 @@ void addToneOptions(CLI::App& app, LookArguments& look) {
            "Samples a pixel of a written picture, for smooth edges; 8 by default.")
         ->type_name("N")
         ->group(kGroup);
-}
-
-void addPictureOptions(CLI::App& app, LookArguments& look) {
-    addToneOptions(app, look);
     app.add_flag_callback(
            "--glow", [&look] { look.draw.glow = true; },
            "The veil that lenses and eyes spread around lamps: a twentieth of the light, blurred.")

@@ -13,8 +13,7 @@
 #include "core/cli/progress.h"
 #include "core/cli/run_solver.h"
 #include "core/cli/values.h"
-#include "core/image/final_gather.h"
-#include "core/io/image_write.h"
+#include "core/image/still_options.h"
 #include "viewer/app/first_view.h"
 #include "viewer/app/look_arguments.h"
 #include "viewer/app/picture_file.h"
@@ -24,8 +23,6 @@
 namespace fluxwalk::app {
 namespace {
 
-constexpr unsigned kFewestRays = 8;
-constexpr unsigned kMostRays = 4096;
 /// A still needs no finer solution: gathering makes its light several times more exact.
 constexpr double kDefaultError = 0.03;
 
@@ -37,7 +34,7 @@ struct RenderArguments {
     gl::PixelSize size{1280, 720};
     std::filesystem::path picture;
     LookArguments look;
-    unsigned rays = image::GatherRays{}.weak;
+    image::StillOptions still;
     bool asHalf = false;
 };
 
@@ -77,13 +74,9 @@ image::Still take(const RenderArguments& arguments, const cli::Solved& solved) {
     const scene::Camera camera = cli::chooseCamera(arguments.camera, *solved.scene, [&] {
         return chooseFirstView(problem.rays, solved.scene->bounds());
     });
-    image::StillOptions options;
+    image::StillOptions options = arguments.still;
     options.width = static_cast<std::uint32_t>(arguments.size.width);
     options.height = static_cast<std::uint32_t>(arguments.size.height);
-    options.samples = static_cast<unsigned>(arguments.look.samples);
-    options.rays.weak = arguments.rays;
-    options.rays.strong = arguments.rays + arguments.rays / 3;
-    options.rays.sky = options.rays.strong;
     options.seed = problem.options.seed;
     cli::Progress progress(stderr, cli::chooseStyle(stderr, arguments.output.quiet));
     image::StillCallbacks callbacks;
@@ -93,13 +86,10 @@ image::Still take(const RenderArguments& arguments, const cli::Solved& solved) {
 }
 
 void write(const RenderArguments& arguments, const image::Still& still) {
-    if (isLightFile(arguments.picture)) {
-        cli::writeOutput([&] { writeStillLight(arguments.picture, still, arguments.asHalf); });
-        return;
-    }
-    const double exposure = arguments.look.draw.exposure.value_or(meterStill(still));
-    const std::vector<std::uint8_t> pixels = developStill(still, exposure, arguments.look.draw.curve);
-    cli::writeOutput([&] { io::writePng(arguments.picture, still.width, still.height, pixels); });
+    const bool isLight = isLightFile(arguments.picture);
+    const double exposure = isLight ? 0.0 : arguments.look.draw.exposure.value_or(meterStill(still));
+    cli::writeOutput(
+        [&] { writeStill(arguments.picture, still, exposure, arguments.look.draw.curve, arguments.asHalf); });
 }
 
 cli::ExitCode runRender(const RenderArguments& arguments) {
@@ -129,15 +119,19 @@ void addRenderOptions(CLI::App& app, const std::shared_ptr<RenderArguments>& arg
            "Size of the picture in pixels, up to those of 7680x4320; 1280x720 by default.")
         ->type_name("WxH")
         ->group("Picture");
-    app.add_option_function<std::string>(
-           "--shadow-rays",
-           [arguments](const std::string& text) {
-               arguments->rays = cli::parseCountOption("--shadow-rays", text, kFewestRays, kMostRays);
-           },
-           "Shadow rays for each point to all weak sources together; a lamp gets up to a third more. "
-           "Four times as many halve the noise at least; 96 by default.")
-        ->type_name("N")
-        ->group("Picture");
+    for (const image::StillOptionInfo& option : image::stillOptionsTable()) {
+        const std::string name = "--" + std::string(option.name);
+        app.add_option_function<std::string>(
+               name,
+               [arguments, name, &option](const std::string& text) {
+                   option.set(arguments->still,
+                              cli::parseCountOption(name, text, option.minimum, option.maximum));
+               },
+               fmt::format("{} Default {}; {} to {}.", option.explanation, option.defaultValue(),
+                           option.minimum, option.maximum))
+            ->type_name("N")
+            ->group("Picture");
+    }
     addToneOptions(app, arguments->look);
     app.add_flag("--half", arguments->asHalf,
                  "Light in an .exr as 16-bit floats: half the size, and nothing brighter than 65504.")

@@ -7,6 +7,8 @@
 
 #include "core/base/photometry.h"
 #include "core/io/exr_layers.h"
+#include "core/io/image_write.h"
+#include "viewer/app/picture_file.h"
 #include "viewer/render/light_meter.h"
 
 namespace fluxwalk::app {
@@ -78,6 +80,15 @@ void writeStillLight(const std::filesystem::path& file, const image::Still& stil
         {{"object.id"}, std::span<const std::uint32_t>(still.object), false},
     }};
     io::writeExrLayers(file, still.width, still.height, layers);
+}
+
+void writeStill(const std::filesystem::path& file, const image::Still& still, double exposure,
+                render::ToneCurve curve, bool asHalf) {
+    if (isLightFile(file)) {
+        writeStillLight(file, still, asHalf);
+    } else {
+        io::writePng(file, still.width, still.height, developStill(still, exposure, curve));
+    }
 }
 
 }  // namespace fluxwalk::app

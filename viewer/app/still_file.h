@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "core/image/still.h"
 #include "viewer/render/tone.h"
@@ -19,5 +18,9 @@ std::vector<std::uint8_t> developStill(const image::Still& still, double exposur
 /// object.id. Light as 16-bit floats with `asHalf`, which end at 65,504; albedo and normal always. Throws
 /// base::FileError.
 void writeStillLight(const std::filesystem::path& file, const image::Still& still, bool asHalf);
+
+/// One of both, by the file's name. Throws base::FileError.
+void writeStill(const std::filesystem::path& file, const image::Still& still, double exposure,
+                render::ToneCurve curve, bool asHalf);
 
 }  // namespace fluxwalk::app

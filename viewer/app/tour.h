@@ -36,6 +36,8 @@ class Tour {
     void record(const Frame& frame) { recorder_.follow(frame.walker.camera(), frame.now); }
     /// Whether something goes on that needs every frame.
     bool isMoving() const { return playback_.isPlaying(); }
+    /// Whether help or an error is open, which Esc closes first.
+    bool isOpen() const { return isHelpOpen_ || (message_ && message_->isError); }
     /// Whether the mouse belongs to an orbit.
     bool isOrbiting() const { return pivot_.has_value(); }
 

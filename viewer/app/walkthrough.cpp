@@ -15,6 +15,7 @@
 #include "viewer/app/mouse_look.h"
 #include "viewer/app/overlays.h"
 #include "viewer/app/seen_picture.h"
+#include "viewer/app/still_taker.h"
 #include "viewer/app/tapped_keys.h"
 #include "viewer/app/tour.h"
 #include "viewer/ui/imgui_context.h"
@@ -50,6 +51,8 @@ class Walkthrough {
     void step();
     /// The solver, to be stopped elsewhere; null for none. Nothing else may be called afterwards.
     std::unique_ptr<session::SolverSession> release() { return std::move(session_); }
+    /// The same for a file that is being written.
+    std::future<void> releaseFile() { return stills_.release(); }
 
   private:
     void waitForWork();
@@ -62,7 +65,9 @@ class Walkthrough {
     void takeKeys();
     bool move(double seconds);
     void keepPicture(bool asLight);
+    void drawLegends(const render::ValueRange& range);
     void drawInterface();
+    StillTaker::Frame stillFrame();
 
     gl::WindowContext& window_;
     const Exhibit& exhibit_;
@@ -90,6 +95,7 @@ class Walkthrough {
     bool isAnimating_ = true;
     Floor floor_;
     Tour tour_;
+    StillTaker stills_;
     /// Last, so that the solver stops before anything it may wake goes.
     std::unique_ptr<session::SolverSession> session_;
 };
@@ -103,12 +109,13 @@ Walkthrough::Walkthrough(gl::WindowContext& window, const Exhibit& exhibit, Scen
       mouse_(window.window()),
       tappedKeys_(window.window()),
       walker_(exhibit.camera, exhibit.solid->bounds()),
-      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection, true, true, {}},
+      settings_{{}, exhibit.look, exhibit.isProbing, exhibit.inspection, true, true, {}, {}},
       options_(exhibit.options.value_or(solve::Options{})),
       lights_(scene::listLightSources(*exhibit.scene)),
       now_(glfwGetTime()),
       floor_(exhibit.solid),
-      tour_(window, exhibit, opener) {
+      tour_(window, exhibit, opener),
+      stills_(window, {tour_, picture_.renderer(), settings_}, exhibit.scene->name) {
     settings_.lights = ui::controlsOf(lights_, options_.lighting);
     if (exhibit.look.exposure) {
         settings_.exposure = {false, 0.0, *exhibit.look.exposure};
@@ -223,7 +230,13 @@ void Walkthrough::takeKeys() {
     if (ImGui::IsKeyPressed(GLFW_KEY_TAB, false)) {
         mouse_.setCaptured(!mouse_.isCaptured());
     }
+    if (ImGui::IsKeyPressed(GLFW_KEY_T, false)) {
+        stills_.press(stillFrame());
+    }
     if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) {
+        if (!mouse_.isCaptured() && !tour_.isOpen()) {
+            stills_.dismiss();
+        }
         mouse_.setCaptured(false);
         inspector_.unpin();
     }
@@ -245,8 +258,9 @@ void Walkthrough::takeKeys() {
         const bool isPicture = settings_.draw.shown == render::Shown::picture;
         settings_.draw.shown = isPicture ? render::Shown::illuminance : render::Shown::picture;
     }
-    if (ImGui::IsKeyPressed(GLFW_KEY_F12, false)) {
-        keepPicture(ImGui::GetIO().KeyShift);
+    const bool asLight = ImGui::GetIO().KeyShift;
+    if (ImGui::IsKeyPressed(GLFW_KEY_F12, false) && !stills_.keep(asLight, stillFrame())) {
+        keepPicture(asLight);
     }
     if (session_ && ImGui::IsKeyPressed(GLFW_KEY_P, false)) {
         isPaused_ = !isPaused_;
@@ -298,6 +312,27 @@ void Walkthrough::keepPicture(bool asLight) {
     }
 }
 
+StillTaker::Frame Walkthrough::stillFrame() {
+    const float scale = imgui_.scale();
+    const ui::Canvas canvas{scale, kKeysHeight * scale, ui::rightOfPanel(settings_, scale)};
+    return {session_.get(), walker_.camera(), now_, now_ == lastMove_, shown_ ? shown_->sequence : 0, canvas};
+}
+
+void Walkthrough::drawLegends(const render::ValueRange& range) {
+    const ui::Canvas canvas{imgui_.scale(), kKeysHeight * imgui_.scale()};
+    const render::ColorMap& colorMap = picture_.renderer().colorMap();
+    float legendWidth = 0.0f;
+    if (faceLegend_) {
+        legendWidth = ui::drawLegend(*faceLegend_, canvas);
+    } else if (settings_.draw.shown == render::Shown::illuminance ||
+               settings_.draw.shown == render::Shown::luminance) {
+        legendWidth = ui::drawLegend(ui::makeLegend(settings_.draw, range, colorMap), canvas);
+    }
+    if (settings_.isProbing && settings_.inspection.visibility && inspector_.inspection() != nullptr) {
+        ui::drawLegend(ui::makeVisibilityLegend(colorMap), canvas, legendWidth);
+    }
+}
+
 void Walkthrough::drawInterface() {
     const float scale = imgui_.scale();
     ui::PanelInfo info;
@@ -317,22 +352,15 @@ void Walkthrough::drawInterface() {
     }
     info.places = tour_.places();
     info.lights = lights_;
+    info.still = stills_.info();
     const double fov = walker_.verticalFov();
     const ui::PanelActions actions = ui::drawPanel(info, settings_, options_, walker_, scale);
-    inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse &&
-            !tour_.isOrbiting());
-    const ui::Canvas canvas{scale, kKeysHeight * scale};
-    float legendWidth = 0.0f;
-    if (faceLegend_) {
-        legendWidth = ui::drawLegend(*faceLegend_, canvas);
-    } else if (settings_.draw.shown == render::Shown::illuminance ||
-               settings_.draw.shown == render::Shown::luminance) {
-        legendWidth =
-            ui::drawLegend(ui::makeLegend(settings_.draw, info.shownRange, renderer.colorMap()), canvas);
+    if (!stills_.isLarge()) {
+        inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse &&
+                !tour_.isOrbiting());
+        drawLegends(info.shownRange);
     }
-    if (settings_.isProbing && settings_.inspection.visibility && inspector_.inspection() != nullptr) {
-        ui::drawLegend(ui::makeVisibilityLegend(renderer.colorMap()), canvas, legendWidth);
-    }
+    stills_.draw(stillFrame(), actions.still);
     const float left = ui::rightOfPanel(settings_, scale);
     ui::drawKeys({mouse_.isCaptured(), walker_.movement == ui::Movement::walk, settings_.isPanelOpen}, left,
                  scale);
@@ -410,6 +438,7 @@ void walkThrough(gl::WindowContext& window, std::unique_ptr<Exhibit> exhibit, co
             // Nobody need look at a dead window until the solver ends.
             glfwHideWindow(window.window());
         }
+        leaving.push_back(walkthrough.releaseFile());
         leaving.push_back(
             std::async(std::launch::async, [old = walkthrough.release()]() mutable { old.reset(); }));
         exhibit = std::move(next);

@@ -76,6 +76,7 @@ namespace fluxwalk::gl {
     X(TEXIMAGE2D, TexImage2D)                                         \
     X(TEXPARAMETERF, TexParameterf)                                   \
     X(TEXPARAMETERI, TexParameteri)                                   \
+    X(TEXSUBIMAGE2D, TexSubImage2D)                                   \
     X(UNIFORM1F, Uniform1f)                                           \
     X(UNIFORM1I, Uniform1i)                                           \
     X(UNIFORM2F, Uniform2f)                                           \

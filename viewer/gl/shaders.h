@@ -20,6 +20,7 @@ extern const std::string_view kGlowVertex;
 extern const std::string_view kGlowFragment;
 extern const std::string_view kPanelVertex;
 extern const std::string_view kPanelFragment;
+extern const std::string_view kStillFragment;
 
 /// First line of every shader.
 inline constexpr std::string_view kVersion = "#version 330 core\n";

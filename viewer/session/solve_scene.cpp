@@ -2,6 +2,12 @@
 #include "viewer/session/solver_session.h"
 
 namespace fluxwalk::session {
+namespace {
+
+/// A sweep that changes less than this part of the power leaves light that stills can be gathered from.
+constexpr double kStillResidual = 0.01;
+
+}  // namespace
 
 Solving solveWith(SolverSource source) {
     // Functions are copyable, the solver is not.
@@ -30,6 +36,17 @@ Solving solveWith(SolverSource source) {
     };
     solving.look.inspect = [solver](const rays::Ray& ray) {
         return *solver == nullptr ? std::nullopt : image::inspectAlong((*solver)->problem(), ray);
+    };
+    solving.look.takeStill = [solver](const scene::Camera& camera, const image::StillOptions& options,
+                                      const image::StillCallbacks& callbacks) {
+        const solve::Problem& problem = (*solver)->problem();
+        image::StillOptions all = options;
+        all.seed = problem.options.seed;
+        return image::takeStill(problem, camera, all, callbacks);
+    };
+    solving.look.isFitForStill = [solver] {
+        const solve::Statistics& statistics = (*solver)->statistics();
+        return !statistics.history.empty() && statistics.residual < kStillResidual;
     };
     return solving;
 }

@@ -58,6 +58,9 @@ void SolverSession::step() {
 void SolverSession::stop() {
     const std::lock_guard lock(mutex_);
     isStopping_ = true;
+    if (still_) {
+        still_->cancel();
+    }
     changed_.notify_all();
 }
 
@@ -77,6 +80,18 @@ void SolverSession::ask(const rays::Ray& ray) {
 std::shared_ptr<const Finding> SolverSession::finding() const {
     const std::lock_guard lock(mutex_);
     return finding_;
+}
+
+void SolverSession::take(std::shared_ptr<StillJob> still) {
+    const std::lock_guard lock(mutex_);
+    if (still_) {
+        still_->cancel();
+    }
+    still_ = std::move(still);
+    if (isStopping_ || status_.phase == Phase::failed) {
+        still_->cancel();
+    }
+    changed_.notify_all();
 }
 
 Status SolverSession::wait() {
@@ -126,6 +141,28 @@ void SolverSession::answer(std::unique_lock<std::mutex>& lock) {
     }
 }
 
+// Makes the still that is asked for.
+void SolverSession::serveStill(std::unique_lock<std::mutex>& lock) {
+    const std::shared_ptr<StillJob> still = still_;
+    if (!still) {
+        return;
+    }
+    lock.unlock();
+    still->run(solving_.look.takeStill, [this] {
+        std::unique_lock between(mutex_);
+        answer(between);
+    });
+    lock.lock();
+    if (still_ == still) {
+        still_.reset();
+    }
+    if (wake_) {
+        lock.unlock();
+        wake_();
+        lock.lock();
+    }
+}
+
 // What the resting solver is asked to show or to answer.
 void SolverSession::look(std::unique_lock<std::mutex>& lock) {
     answer(lock);
@@ -136,6 +173,9 @@ void SolverSession::look(std::unique_lock<std::mutex>& lock) {
             publish(std::move(snapshot));
         }
         lock.lock();
+    }
+    if (hasSolved_) {
+        serveStill(lock);
     }
 }
 
@@ -152,6 +192,9 @@ solve::Callbacks SolverSession::makeCallbacks() {
     callbacks.settled = [this] {
         std::unique_lock lock(mutex_);
         answer(lock);
+        if (still_ && solving_.look.isFitForStill && solving_.look.isFitForStill()) {
+            serveStill(lock);
+        }
     };
     callbacks.resumable = [this](solve::Moment moment) {
         const std::lock_guard lock(mutex_);
@@ -187,6 +230,7 @@ void SolverSession::solveOnce(std::unique_lock<std::mutex>& lock) {
     const solve::Outcome outcome = solving_.solve(options, makeCallbacks());
     lock.lock();
     status_.outcome = outcome;
+    hasSolved_ = true;
     isUnfinished_ = outcome == solve::Outcome::stopped;
     status_.isStepping = status_.isStepping && isUnfinished_;
 }
@@ -202,7 +246,7 @@ void SolverSession::run() {
             }
             enter(lock, hasWork ? Phase::paused : Phase::finished);
             changed_.wait(lock, [this] {
-                return isStopping_ || hasNewDetail_ || question_ ||
+                return isStopping_ || hasNewDetail_ || question_ || (still_ && hasSolved_) ||
                        (!isPaused_ && (isUnfinished_ || hasNewOptions_));
             });
             look(lock);
@@ -213,6 +257,9 @@ void SolverSession::run() {
             lock.lock();
         }
         status_.failure = std::current_exception();
+        if (still_) {
+            still_->cancel();
+        }
         enter(lock, Phase::failed);
     }
 }

@@ -12,6 +12,7 @@
 
 #include "core/image/inspect.h"
 #include "core/solve/solver.h"
+#include "viewer/session/still_job.h"
 
 /// The solver in a thread of its own.
 namespace fluxwalk::session {
@@ -23,6 +24,9 @@ using SolveFunction = std::function<solve::Outcome(const solve::Options&, const 
 struct Lookers {
     std::function<std::shared_ptr<const solve::Snapshot>(const solve::Detail&)> show;
     std::function<std::optional<image::Inspection>(const rays::Ray&)> inspect;
+    TakeStill takeStill;
+    /// Whether the light is far enough for a still while it is still being solved.
+    std::function<bool()> isFitForStill;
 };
 
 /// Where its Solver comes from, and who is told when it could go on from its state (may be empty).
@@ -99,6 +103,12 @@ class SolverSession {
     /// The newest answer; null before the first.
     std::shared_ptr<const Finding> finding() const;
 
+    /// Asks for a still of the solution. Taken after a sweep, once there is a level of refinement and the
+    /// light hardly changes any more, or at once where the solver rests; the solver goes on afterwards to the
+    /// same bits, and the time does not count. Takes the place of one that is not over, which is cancelled.
+    /// Options that come meanwhile wait; questions are answered.
+    void take(std::shared_ptr<StillJob> still);
+
     /// Waits until the session is finished, stopped or failed.
     Status wait();
 
@@ -110,6 +120,7 @@ class SolverSession {
     void publish(std::shared_ptr<const solve::Snapshot> snapshot);
     void answer(std::unique_lock<std::mutex>& lock);
     void look(std::unique_lock<std::mutex>& lock);
+    void serveStill(std::unique_lock<std::mutex>& lock);
 
     const Solving solving_;
     const std::function<void()> wake_;
@@ -123,6 +134,9 @@ class SolverSession {
     bool hasNewDetail_ = false;
     std::optional<rays::Ray> question_;
     std::shared_ptr<const Finding> finding_;
+    /// The one that waits, or is being made.
+    std::shared_ptr<StillJob> still_;
+    bool hasSolved_ = false;
     bool hasNewOptions_ = true;
     bool needsNewSolver_ = false;
     bool isUnfinished_ = true;

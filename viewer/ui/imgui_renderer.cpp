@@ -1,6 +1,7 @@
 #include "viewer/ui/imgui_renderer.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <imgui.h>
@@ -15,6 +16,10 @@ std::string withVersion(std::string_view source) {
 }
 
 }  // namespace
+
+void* textureId(GLuint texture) {
+    return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture));
+}
 
 ImguiRenderer::ImguiRenderer(const gl::Functions& gl)
     : gl_(gl),
@@ -54,6 +59,7 @@ void ImguiRenderer::takeGlyphs() {
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    ImGui::GetIO().Fonts->SetTexID(textureId(glyphs_.id()));
 }
 
 void ImguiRenderer::draw(const ImDrawData& data) const {
@@ -77,7 +83,6 @@ void ImguiRenderer::draw(const ImDrawData& data) const {
     gl_.Uniform4f(program_.uniform("clipFromPixels"), sx, sy, -1.0f - data.DisplayPos.x * sx,
                   1.0f - data.DisplayPos.y * sy);
     gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, glyphs_.id());
     gl_.BindVertexArray(array_.id());
     for (int i = 0; i < data.CmdListsCount; ++i) {
         const ImDrawList& list = *data.CmdLists[i];
@@ -95,6 +100,8 @@ void ImguiRenderer::draw(const ImDrawData& data) const {
             if (right <= left || bottom <= top) {
                 continue;
             }
+            gl_.BindTexture(GL_TEXTURE_2D,
+                            static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
             gl_.Scissor(left, height - bottom, right - left, bottom - top);
             gl_.DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
                                        GL_UNSIGNED_SHORT,

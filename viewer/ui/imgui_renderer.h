@@ -6,6 +6,9 @@ struct ImDrawData;
 
 namespace fluxwalk::ui {
 
+/// How ImGui's lists call a texture.
+void* textureId(GLuint texture);
+
 /// Draws ImGui's lists through our own GL functions, so that panels appear in windows, under EGL and under
 /// OSMesa alike. Made after the fonts were added to the present ImGui context.
 class ImguiRenderer {

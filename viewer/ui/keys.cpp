@@ -21,6 +21,9 @@ constexpr std::array kMoving{KeyLine{"W A S D, arrows", "walk, fly"},
 constexpr std::array kAround{KeyLine{"Alt drag, middle drag", "orbit about the point under the cursor"},
                              KeyLine{"wheel while orbiting", "nearer, farther"},
                              KeyLine{"G", "go to the object under the cursor"}};
+constexpr std::array kStills{KeyLine{"T", "gather a still; large or in a corner"},
+                             KeyLine{"Esc", "still to the corner, or closed if done"},
+                             KeyLine{"F12, Shift F12", "keep a large still as PNG, as EXR"}};
 constexpr std::array kPlaces{
     KeyLine{"B", "keep this view as a bookmark"}, KeyLine{"1 to 9", "go to a bookmark"},
     KeyLine{"R", "begin or end the recording of a path"}, KeyLine{"L", "play the last path, or stop it"}};
@@ -35,10 +38,10 @@ constexpr std::array kWindow{KeyLine{"F1", "this help"},
                              KeyLine{"Esc", "release mouse and pin, close help and messages"},
                              KeyLine{"drop a file", "open that scene"}};
 constexpr std::array kGroups{KeyGroup{"Moving", kMoving}, KeyGroup{"Around things", kAround},
-                             KeyGroup{"Places and paths", kPlaces}, KeyGroup{"Seeing", kSeeing},
-                             KeyGroup{"Window", kWindow}};
+                             KeyGroup{"Stills", kStills}, KeyGroup{"Places and paths", kPlaces},
+                             KeyGroup{"Seeing", kSeeing}, KeyGroup{"Window", kWindow}};
 /// Groups from here on stand in the right half of the window's help.
-constexpr std::size_t kRightHalf = 2;
+constexpr std::size_t kRightHalf = 3;
 
 /// At 96 dpi.
 constexpr float kMargin = 14.0f;
@@ -148,10 +151,9 @@ void drawKeys(const KeyHints& hints, float left, float scale) {
     const char* look = hints.isCaptured ? "mouse look" : "right drag look";
     const char* capture = hints.isCaptured ? "Esc release" : "Tab capture";
     // The first are needed first; those that do not fit beside the panel are left to F1.
-    const std::array<const char*, 9> all{
-        "F1 all keys", "WASD move", look,      hints.isPanelOpen ? "H hide panel" : "H panel",
-        "C lux",       "I inspect", "P pause", hints.isWalking ? "F fly" : "F walk",
-        capture};
+    const std::array<const char*, 10> all{
+        "F1 all keys", "WASD move", look,      hints.isPanelOpen ? "H hide panel" : "H panel", "C lux",
+        "I inspect",   "P pause",   "T still", hints.isWalking ? "F fly" : "F walk",           capture};
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float margin = kMargin * scale;
     const float room = display.x - left - 2.0f * margin - 2.0f * ImGui::GetStyle().WindowPadding.x;

@@ -43,6 +43,9 @@ std::string describePhase(const PanelInfo& info) {
     if (!info.session) {
         return "Lit file: shown as it was solved";
     }
+    if (info.still.isAtWork) {
+        return "Waiting while a still is gathered";
+    }
     switch (info.session->phase) {
         case session::Phase::solving:
             if (info.session->isStepping) {
@@ -164,6 +167,10 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
             actions.changedOptions |= drawPictureSettings(info, settings, options);
         }
         // Folded at first, so that their headings are seen in a small window.
+        if (info.session && beginSection("Still", false)) {
+            const double error = info.snapshot != nullptr ? info.snapshot->statistics.estimatedError : -1.0;
+            actions.still = drawStillSettings(info.still, settings.still, error);
+        }
         if (beginSection("Moving", false)) {
             drawMovement(walker);
         }

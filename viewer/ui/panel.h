@@ -10,6 +10,7 @@
 #include "viewer/ui/inspection.h"
 #include "viewer/ui/light_control.h"
 #include "viewer/ui/places.h"
+#include "viewer/ui/still.h"
 #include "viewer/ui/walker.h"
 
 namespace fluxwalk::ui {
@@ -26,6 +27,7 @@ struct ViewSettings {
     bool isPanelOpen = true;
     /// One for each of PanelInfo::lights.
     std::vector<LightControl> lights;
+    StillSettings still;
 };
 
 /// What the panel tells.
@@ -44,6 +46,7 @@ struct PanelInfo {
     /// Range in which values are shown at present.
     render::ValueRange shownRange;
     Places places;
+    StillInfo still;
 };
 
 /// What the user did in one frame, beside changing the structures passed in.
@@ -52,6 +55,7 @@ struct PanelActions {
     bool togglesPause = false;
     bool steps = false;
     PlaceActions places;
+    StillActions still;
 };
 
 /// Draws the panel at the left edge of the window. `scale` is 1 at 96 dpi.
