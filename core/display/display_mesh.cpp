@@ -90,13 +90,13 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     auto layout = std::make_shared<MeshLayout>();
     layout->vertices = collectVertices(topology, points, cells, options.creaseAngle);
     RefinedCells refined = refineForDisplay(
-        topology, cells,
+        topology, cells, layout->vertices,
         {options.curvatureAngle, options.rimRise, options.leastAngle, options.mostCellsForShape});
     layout->cells = std::move(cells);
     const bool isRefined = !refined.cells.empty();
     MeshVertices fine;
     if (isRefined) {
-        fine = collectVertices(topology, refined.points, refined.cells, options.creaseAngle);
+        fine = collectVertices(topology, refined, options.creaseAngle);
         layout->plan = planCarrying(refined.cells, fine);
         layout->plannedValues = fine.pointOfValue.size();
     }
