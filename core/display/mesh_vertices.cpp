@@ -16,13 +16,16 @@ constexpr unsigned kCutsForTwo = 2;
 
 class Collector {
   public:
-    Collector(const PatchTopology& topology, std::uint32_t pointCount, const std::vector<Cell>& cells)
-        : surface_(topology.surface()), cells_(cells) {
+    Collector(const PatchTopology& topology, std::uint32_t pointCount, const std::vector<Cell>& cells,
+              MeshVertices& out)
+        : surface_(topology.surface()), cells_(cells), out_(out) {
         out_.positions.resize(pointCount);
         out_.heads.assign(pointCount, kNone);
+        out_.vertices.clear();
         out_.vertices.reserve(pointCount + pointCount / 4);
-        out_.cells.resize(cells.size());
+        out_.cells.assign(cells.size(), {});
         out_.centers.resize(cells.size());
+        out_.pointOfValue.clear();
     }
 
     void evaluate() {
@@ -74,9 +77,23 @@ class Collector {
         }
     }
 
-    MeshVertices finish(double creaseAngle) {
-        numberValues(std::cos(creaseAngle));
-        return std::move(out_);
+    void numberValues(double creaseAngle) {
+        // Rounding must not make a crease of equal normals.
+        const auto limit = static_cast<float>(std::cos(creaseAngle) - 1e-6);
+        out_.pointOfValue.reserve(out_.vertices.size());
+        for (std::uint32_t point = 0; point < out_.heads.size(); ++point) {
+            // Each vertex that has no value yet starts one and spreads it.
+            for (std::uint32_t v = out_.heads[point]; v != kNone; v = out_.vertices[v].next) {
+                if (out_.vertices[v].value == kNone) {
+                    const auto value = static_cast<std::uint32_t>(out_.pointOfValue.size());
+                    out_.pointOfValue.push_back(point);
+                    out_.vertices[v].value = value;
+                    if (out_.vertices[v].next != kNone) {
+                        spread(v, limit);
+                    }
+                }
+            }
+        }
     }
 
   private:
@@ -146,25 +163,6 @@ class Collector {
         return add(vertex, found.last);
     }
 
-    void numberValues(double leastCosine) {
-        // Rounding must not make a crease of equal normals.
-        const auto limit = static_cast<float>(leastCosine - 1e-6);
-        out_.pointOfValue.reserve(out_.vertices.size());
-        for (std::uint32_t point = 0; point < out_.heads.size(); ++point) {
-            // Each vertex that has no value yet starts one and spreads it.
-            for (std::uint32_t v = out_.heads[point]; v != kNone; v = out_.vertices[v].next) {
-                if (out_.vertices[v].value == kNone) {
-                    const auto value = static_cast<std::uint32_t>(out_.pointOfValue.size());
-                    out_.pointOfValue.push_back(point);
-                    out_.vertices[v].value = value;
-                    if (out_.vertices[v].next != kNone) {
-                        spread(v, limit);
-                    }
-                }
-            }
-        }
-    }
-
     void spread(std::uint32_t start, float limit) {
         stack_.assign(1, start);
         while (!stack_.empty()) {
@@ -182,7 +180,7 @@ class Collector {
 
     const surface::Surface& surface_;
     const std::vector<Cell>& cells_;
-    MeshVertices out_;
+    MeshVertices& out_;
     /// The planar patch seen last, and its normal.
     std::uint32_t flatPatch_ = kNone;
     Vec3 flatNormal_{};
@@ -197,15 +195,18 @@ bool isFan(const Cell& cell, bool isPlanar, bool hasMiddles) {
 
 MeshVertices collectVertices(const PatchTopology& topology, const PointTable& points,
                              const std::vector<Cell>& cells, double creaseAngle) {
-    Collector collector(topology, points.size(), cells);
+    MeshVertices out;
+    Collector collector(topology, points.size(), cells, out);
     collector.evaluate();
-    return collector.finish(creaseAngle);
+    collector.numberValues(creaseAngle);
+    return out;
 }
 
-MeshVertices collectVertices(const PatchTopology& topology, const RefinedCells& refined, double creaseAngle) {
-    Collector collector(topology, refined.pointCount, refined.cells);
+void collectVertices(const PatchTopology& topology, const RefinedCells& refined, double creaseAngle,
+                     MeshVertices& out) {
+    Collector collector(topology, refined.pointCount, refined.cells, out);
     collector.take(refined);
-    return collector.finish(creaseAngle);
+    collector.numberValues(creaseAngle);
 }
 
 }  // namespace fluxwalk::display

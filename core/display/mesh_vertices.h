@@ -54,7 +54,8 @@ MeshVertices collectVertices(const PatchTopology& topology, const PointTable& po
 
 struct RefinedCells;
 
-/// The same for cells whose points were evaluated when they were made.
-MeshVertices collectVertices(const PatchTopology& topology, const RefinedCells& refined, double creaseAngle);
+/// The same for cells whose points were evaluated when they were made, in the memory that `out` has.
+void collectVertices(const PatchTopology& topology, const RefinedCells& refined, double creaseAngle,
+                     MeshVertices& out);
 
 }  // namespace fluxwalk::display

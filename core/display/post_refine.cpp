@@ -42,7 +42,7 @@ std::uint32_t extentAlong(const Cell& cell, Axis axis) {
 class Refiner {
   public:
     Refiner(const PatchTopology& topology, std::span<const Cell> cells, const MeshVertices& vertices,
-            const RefineOptions& options)
+            const RefineOptions& options, RefineBuffers& buffers)
         : topology_(topology),
           surface_(topology.surface()),
           sources_(cells),
@@ -53,12 +53,18 @@ class Refiner {
           cosine_(std::cos(options.leastAngle)),
           // Halved across, a cell that is longer than this would have to be cut for its shape in any case.
           longFirst_(options.leastAngle > 0.0 ? 0.5 / std::tan(options.leastAngle) : 0.0),
-          net_(topology, vertices),
+          buffers_(buffers),
+          net_(buffers.net),
+          cells_(buffers.cells),
+          nets_(buffers.nets),
+          isCompact_(buffers.isCompact),
           leafCount_(cells.size()) {}
 
-    RefinedCells run() {
+    void run() {
+        buffers_.refined.cells.clear();
+        buffers_.refined.cellSamples.clear();
         if (!needsCuts()) {
-            return {};
+            return;
         }
         addRoots();
         for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -67,12 +73,12 @@ class Refiner {
         }
         cutForShape();
         if (cells_.size() == sources_.size()) {
-            return {};
+            return;
         }
         while (balanceAll()) {
             cutForShape();
         }
-        return takeLeaves();
+        takeLeaves();
     }
 
   private:
@@ -112,8 +118,10 @@ class Refiner {
     }
 
     void addRoots() {
-        cells_.reserve(sources_.size());
-        nets_.reserve(sources_.size());
+        net_.reset(topology_, vertices_);
+        cells_.clear();
+        nets_.clear();
+        isCompact_.clear();
         RegionCursor cursor(surface_);
         for (std::uint32_t i = 0; i < sources_.size(); ++i) {
             cells_.push_back(makeCell(topology_, sources_[i].patch, sources_[i].path, i));
@@ -331,11 +339,9 @@ class Refiner {
     }
 
     // Depth-first.
-    RefinedCells takeLeaves() {
-        RefinedCells out;
-        out.cells.reserve(leafCount_);
-        out.cellSamples.reserve(leafCount_);
-        std::vector<std::uint32_t> stack;
+    void takeLeaves() {
+        RefinedCells& out = buffers_.refined;
+        std::vector<std::uint32_t>& stack = buffers_.stack;
         for (std::uint32_t root = 0; root < sources_.size(); ++root) {
             stack.push_back(root);
             while (!stack.empty()) {
@@ -351,9 +357,8 @@ class Refiner {
                 }
             }
         }
-        out.samples = net_.takeSamples();
+        out.samples = net_.samples();
         out.pointCount = net_.pointCount();
-        return out;
     }
 
     CellSamples samplesOf(std::size_t i) {
@@ -381,11 +386,12 @@ class Refiner {
     double bend_;
     double cosine_;
     double longFirst_;
-    SampleNet net_;
-    std::vector<Cell> cells_;
-    std::vector<CellNet> nets_;  ///< parallel to cells_
+    RefineBuffers& buffers_;
+    SampleNet& net_;
+    std::vector<Cell>& cells_;
+    std::vector<CellNet>& nets_;  ///< parallel to cells_
     /// Cells that are known not to be long, of the first ones.
-    std::vector<std::uint8_t> isCompact_;
+    std::vector<std::uint8_t>& isCompact_;
     std::size_t leafCount_;
     /// Cells whose shape was looked at.
     std::size_t shaped_ = 0;
@@ -393,9 +399,11 @@ class Refiner {
 
 }  // namespace
 
-RefinedCells refineForDisplay(const PatchTopology& topology, std::span<const Cell> cells,
-                              const MeshVertices& vertices, const RefineOptions& options) {
-    return Refiner(topology, cells, vertices, options).run();
+const RefinedCells& refineForDisplay(const PatchTopology& topology, std::span<const Cell> cells,
+                                     const MeshVertices& vertices, const RefineOptions& options,
+                                     RefineBuffers& buffers) {
+    Refiner(topology, cells, vertices, options, buffers).run();
+    return buffers.refined;
 }
 
 }  // namespace fluxwalk::display

@@ -6,15 +6,20 @@ namespace fluxwalk::display {
 
 using surface::Region;
 
-SampleNet::SampleNet(const PatchTopology& topology, const MeshVertices& mesh)
-    : topology_(topology),
-      surface_(topology.surface()),
-      pointCount_(static_cast<std::uint32_t>(mesh.positions.size())),
-      sampleOfVertex_(mesh.vertices.size(), kNone),
-      rootMiddles_(2 * mesh.cells.size()) {}
+void SampleNet::reset(const PatchTopology& topology, const MeshVertices& mesh) {
+    topology_ = &topology;
+    surface_ = &topology.surface();
+    samples_.clear();
+    edges_.clear();
+    pointCount_ = static_cast<std::uint32_t>(mesh.positions.size());
+    sampleOfVertex_.assign(mesh.vertices.size(), kNone);
+    rootMiddles_ = PointTable(2 * mesh.cells.size());
+    firstRoot_.clear();
+    roots_.clear();
+}
 
 std::uint32_t SampleNet::addSample(std::uint32_t patch, const Vec2d& uv) {
-    samples_.push_back(sampleAt(surface_, patch, uv));
+    samples_.push_back(sampleAt(*surface_, patch, uv));
     return static_cast<std::uint32_t>(samples_.size() - 1);
 }
 
@@ -27,7 +32,7 @@ std::uint32_t SampleNet::addEdge(bool isBorder) {
 // between patches (PatchTopology).
 std::uint32_t SampleNet::rootUse(std::uint32_t patch, const GridPoint& a, const GridPoint& b,
                                  std::uint32_t from, std::uint32_t to) {
-    const PointKey key = topology_.keyOf(patch, display::middleOf(a, b));
+    const PointKey key = topology_->keyOf(patch, display::middleOf(a, b));
     const std::uint32_t number = rootMiddles_.insert(key);
     if (number == firstRoot_.size()) {
         firstRoot_.push_back(kNone);
@@ -94,7 +99,7 @@ std::uint32_t SampleNet::middleOf(const CellNet& net, unsigned side, unsigned co
     const SurfaceSample& from = samples_[net.corners[side]];
     const SurfaceSample& to = samples_[net.corners[side + 1 == cornerCount ? 0 : side + 1]];
     const std::uint32_t patch = from.patch;
-    const Vec2d uv = surface_.splitPoint(patch, from.uv, to.uv);
+    const Vec2d uv = surface_->splitPoint(patch, from.uv, to.uv);
     for (std::uint32_t s = edge.sample; s != kNone; s = samples_[s].next) {
         if (samples_[s].patch == patch && samples_[s].uv == uv) {
             return s;
@@ -112,7 +117,7 @@ std::uint32_t SampleNet::centerOf(CellNet& net) {
         const Vec2d left = samples_[middleOf(net, 3, 4)].uv;
         const Vec2d right = samples_[middleOf(net, 1, 4)].uv;
         const std::uint32_t patch = samples_[net.corners[0]].patch;
-        net.center = addSample(patch, surface_.splitPoint(patch, left, right));
+        net.center = addSample(patch, surface_->splitPoint(patch, left, right));
     }
     return net.center;
 }
@@ -142,8 +147,8 @@ std::uint32_t SampleNet::vertexOn(const CellNet& net, unsigned side, unsigned co
 // edges elsewhere.
 std::uint32_t SampleNet::addInnerEdge(std::uint32_t from, std::uint32_t to, std::uint32_t middle) {
     const std::uint32_t edge = addEdge(false);
-    if (middle != kNone && samples_[middle].uv == surface_.splitPoint(samples_[from].patch, samples_[from].uv,
-                                                                      samples_[to].uv)) {
+    if (middle != kNone && samples_[middle].uv == surface_->splitPoint(samples_[from].patch,
+                                                                       samples_[from].uv, samples_[to].uv)) {
         edges_[edge].sample = middle;
     }
     return 2 * edge;

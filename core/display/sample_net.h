@@ -24,8 +24,9 @@ struct CellNet {
 /// patches too. An edge is split where its middle is a vertex.
 class SampleNet {
   public:
-    /// For cells whose vertices are those of `mesh`, which stays.
-    SampleNet(const PatchTopology& topology, const MeshVertices& mesh);
+    /// Begins anew, in the memory that it has, for cells whose vertices are those of `mesh`. The topology
+    /// stays.
+    void reset(const PatchTopology& topology, const MeshVertices& mesh);
 
     /// A cell of that mesh: `own` are its vertices.
     CellNet addRoot(const Cell& cell, const CellVertices& own, const surface::Region& region);
@@ -52,7 +53,6 @@ class SampleNet {
 
     surface::Region regionOf(const CellNet& net, unsigned cornerCount) const;
     const std::vector<SurfaceSample>& samples() const { return samples_; }
-    std::vector<SurfaceSample> takeSamples() { return std::move(samples_); }
     std::uint32_t pointCount() const { return pointCount_; }
 
   private:
@@ -83,14 +83,14 @@ class SampleNet {
     std::uint32_t splitSide(const CellNet& net, unsigned side, unsigned cornerCount);
     std::uint32_t addInnerEdge(std::uint32_t from, std::uint32_t to, std::uint32_t middle);
 
-    const PatchTopology& topology_;
-    const surface::Surface& surface_;
+    const PatchTopology* topology_ = nullptr;
+    const surface::Surface* surface_ = nullptr;
     std::vector<SurfaceSample> samples_;
     std::vector<Edge> edges_;
-    std::uint32_t pointCount_;
+    std::uint32_t pointCount_ = 0;
     /// First sample of each vertex of the mesh that was given; of its edges by their middles.
     std::vector<std::uint32_t> sampleOfVertex_;
-    PointTable rootMiddles_;
+    PointTable rootMiddles_{0};
     std::vector<std::uint32_t> firstRoot_;
     std::vector<RootEdge> roots_;
 };
