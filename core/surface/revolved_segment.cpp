@@ -138,7 +138,7 @@ RegionBounds RevolvedSegment::bounds(std::uint32_t patch, const Region& region) 
 
 bool RevolvedSegment::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
     const auto [lower, upper] = parameterBox(region);
-    return coneAround(normalHull(arcBetween(patch, lower.x, upper.x)), halfAngle).halfAngle <= halfAngle;
+    return isWithinCone(normalHull(arcBetween(patch, lower.x, upper.x)), halfAngle);
 }
 
 // Integral over u of the area measure at radius 1.
