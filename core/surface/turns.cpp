@@ -120,14 +120,14 @@ void approachAxis(std::span<const Vec3d> directions, const IsEnough& isEnough) {
 
 }  // namespace
 
-NormalCone coneAround(std::span<const Vec3d> directions) {
+NormalCone coneAround(std::span<const Vec3d> directions, double enough) {
     NormalCone best{{0.0, 1.0, 0.0}, kPi};
     approachAxis(directions, [&](const Vec3d& axis, const Vec3d& farthest) {
         const double halfAngle = NormalCone::angleBetween(axis, farthest);
         if (halfAngle < best.halfAngle) {
             best = {axis, halfAngle};
         }
-        return false;
+        return best.halfAngle <= enough;
     });
     // Only cones narrower than a half-space hold what their directions combine to.
     if (best.halfAngle >= 0.5 * kPi) {
@@ -138,7 +138,7 @@ NormalCone coneAround(std::span<const Vec3d> directions) {
 
 bool isWithinCone(std::span<const Vec3d> directions, double halfAngle) {
     if (halfAngle >= 0.5 * kPi) {
-        return coneAround(directions).halfAngle <= halfAngle;
+        return coneAround(directions, halfAngle).halfAngle <= halfAngle;
     }
     const base::AngleLimit limit(halfAngle);
     bool isWithin = false;

@@ -38,10 +38,10 @@ Interval rangeOver(const Arc& arc, const Vec2d& ab);
 std::array<Vec2d, 4> hullOf(const Arc& arc);
 
 /// A cone about all combinations, with weights >= 0, of some directions of any length, a few percent wider
-/// than the narrowest. They are at most 16.
-NormalCone coneAround(std::span<const Vec3d> directions);
+/// than the narrowest. They are at most 16. A cone no wider than `enough` (radians) is not narrowed further.
+NormalCone coneAround(std::span<const Vec3d> directions, double enough = 0.0);
 
-/// Whether coneAround() finds one no wider than `halfAngle` (radians), for less.
+/// Whether coneAround() finds one no wider than `halfAngle` (radians) when that is enough, for less.
 bool isWithinCone(std::span<const Vec3d> directions, double halfAngle);
 
 /// Least box in (u,v) that holds a region, as its lower and upper corner.
