@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/photometry.h"
@@ -42,6 +43,35 @@ struct NormalCone {
         const double turn = half - a.halfAngle;
         return {glm::normalize(std::cos(turn) * from + std::sin(turn) / sideLength * side), half};
     }
+};
+
+/// Tells which unit vectors are no further apart than an angle (radians), as NormalCone::angleBetween does,
+/// but by their distance where that is clear.
+class AngleLimit {
+  public:
+    explicit AngleLimit(double angle) : angle_(angle) {
+        const double chord = 2.0 * std::sin(0.5 * std::min(angle, kPi));
+        constexpr double kClear = 1e-9;
+        // Near pi distances hardly differ.
+        if (angle < 3.0) {
+            surelyWithin_ = (1.0 - kClear) * chord * chord;
+            surelyBeyond_ = (1.0 + kClear) * chord * chord;
+        }
+    }
+
+    bool holds(const Vec3d& a, const Vec3d& b) const {
+        const Vec3d between = a - b;
+        const double squared = glm::dot(between, between);
+        if (squared < surelyWithin_) {
+            return true;
+        }
+        return squared <= surelyBeyond_ && NormalCone::angleBetween(a, b) <= angle_;
+    }
+
+  private:
+    double angle_;
+    double surelyWithin_ = 0.0;
+    double surelyBeyond_ = 8.0;  ///< above the square of any distance
 };
 
 }  // namespace fluxwalk::base

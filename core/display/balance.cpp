@@ -14,7 +14,7 @@ void balance(const PatchTopology& topology, PointTable& points, std::vector<Cell
     while (changed) {
         changed = false;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            if (cells[i].childCount == 0 && tree.findCrowdedSide(i)) {
+            if (cells[i].childCount == 0 && tree.isCrowded(i)) {
                 const std::size_t first = cells.size();
                 tree.split(i);
                 for (std::size_t child = first; child < cells.size(); ++child) {

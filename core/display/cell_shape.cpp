@@ -28,7 +28,13 @@ bool isSharp(const Vec3d& a, const Vec3d& b, const Vec3d& c, double cosine) {
 
 }  // namespace
 
-CellShape::CellShape(const surface::Surface& surface, std::uint32_t patch, const surface::Region& region) {
+SurfaceSample sampleAt(const surface::Surface& surface, std::uint32_t patch, const Vec2d& uv) {
+    const surface::SurfacePoint at = surface.evaluate(patch, uv);
+    return {uv, at.position, at.normal, patch};
+}
+
+QuadSamples::QuadSamples(const surface::Surface& surface, std::uint32_t patch,
+                         const surface::Region& region) {
     std::array<Vec2d, 9> uv;
     const auto& c = region.corners;
     for (unsigned k = 0; k < 4; ++k) {
@@ -37,9 +43,22 @@ CellShape::CellShape(const surface::Surface& surface, std::uint32_t patch, const
     }
     uv[8] = surface.splitPoint(patch, uv[7], uv[3]);
     for (unsigned i = 0; i < 9; ++i) {
-        const surface::SurfacePoint at = surface.evaluate(patch, uv[i]);
-        positions_[i] = at.position;
-        normals_[i] = at.normal;
+        samples[i] = sampleAt(surface, patch, uv[i]);
+    }
+}
+
+CellShape::Samples QuadSamples::pointers() const {
+    CellShape::Samples all{};
+    for (unsigned i = 0; i < 9; ++i) {
+        all[i] = &samples[i];
+    }
+    return all;
+}
+
+CellShape::CellShape(const Samples& samples) : samples_(samples) {
+    for (unsigned side = 0; side < 4; ++side) {
+        lengths_[side] =
+            glm::distance(corner(side), middle(side)) + glm::distance(middle(side), corner(side + 1));
     }
 }
 
@@ -54,13 +73,13 @@ double CellShape::meanAlong(Axis axis) const {
 }
 
 double CellShape::turnAlong(Axis axis) const {
-    // Rows of three, of indices into normals_.
+    // Rows of three, of indices of samples.
     constexpr std::array<std::array<std::array<unsigned, 3>, 3>, 2> kRows{
         {{{{0, 1, 2}, {7, 8, 3}, {6, 5, 4}}}, {{{0, 7, 6}, {1, 8, 5}, {2, 3, 4}}}}};
     double most = 0.0;
     for (const auto& row : kRows[static_cast<unsigned>(axis)]) {
-        most = std::max(most, glm::distance(normals_[row[0]], normals_[row[1]]) +
-                                  glm::distance(normals_[row[1]], normals_[row[2]]));
+        most = std::max(most, glm::distance(normal(row[0]), normal(row[1])) +
+                                  glm::distance(normal(row[1]), normal(row[2])));
     }
     return most;
 }
@@ -69,7 +88,7 @@ bool CellShape::turnsBeyond(double angle) const {
     constexpr double kRounding = 1.0 + 1e-9;
     const double chord = 2.0 * std::sin(0.5 * angle) * kRounding;
     for (unsigned k = 0; k < 4; ++k) {
-        const Vec3d between = normals_[k] - normals_[k + 4];
+        const Vec3d between = normal(k) - normal(k + 4);
         if (glm::dot(between, between) > chord * chord) {
             return true;
         }
@@ -102,7 +121,7 @@ bool CellShape::isLonger(Axis axis, double ratio) const {
 }
 
 bool CellShape::hasAngleBelow(double cosine) const {
-    const Vec3d& center = positions_[8];
+    const Vec3d& center = samples_[8]->position;
     for (unsigned k = 0; k < 4; ++k) {
         if (isSharp(center, corner(k), corner(k + 1), cosine) ||
             isSharp(center, corner(k), middle(k), cosine) ||

@@ -6,11 +6,24 @@
 
 namespace fluxwalk::display {
 
+/// A point of the surface as a patch sees it.
+struct SurfaceSample {
+    Vec2d uv{};
+    Vec3d position{};
+    Vec3d normal{};
+    std::uint32_t patch = 0;
+    std::uint32_t point = kNone;  ///< its number where it is a vertex; others are only looked at
+    std::uint32_t next = kNone;   ///< at the same place, for another patch or other (u,v)
+};
+SurfaceSample sampleAt(const surface::Surface& surface, std::uint32_t patch, const Vec2d& uv);
+
 /// A quad region of a surface at its corners, the middles of its edges and its middle: the points that its
 /// triangles may join.
 class CellShape {
   public:
-    CellShape(const surface::Surface& surface, std::uint32_t patch, const surface::Region& region);
+    /// Corners and middles in turn around the border, then the middle. They stay.
+    using Samples = std::array<const SurfaceSample*, 9>;
+    explicit CellShape(const Samples& samples);
 
     /// Length of the longer edge along an axis, by way of its middle.
     double longestAlong(Axis axis) const;
@@ -33,16 +46,22 @@ class CellShape {
     bool hasAngleBelow(double cosine) const;
 
   private:
-    const Vec3d& corner(unsigned k) const { return positions_[2 * (k % 4)]; }
-    const Vec3d& middle(unsigned k) const { return positions_[2 * (k % 4) + 1]; }
-    double lengthOf(unsigned side) const {
-        return glm::distance(corner(side), middle(side)) + glm::distance(middle(side), corner(side + 1));
-    }
+    const Vec3d& corner(unsigned k) const { return samples_[2 * (k % 4)]->position; }
+    const Vec3d& middle(unsigned k) const { return samples_[2 * (k % 4) + 1]->position; }
+    const Vec3d& normal(unsigned k) const { return samples_[k]->normal; }
+    double lengthOf(unsigned side) const { return lengths_[side % 4]; }
     double meanAlong(Axis axis) const;
 
-    /// Corners and middles in turn around the border, then the middle.
-    std::array<Vec3d, 9> positions_;
-    std::array<Vec3d, 9> normals_;
+    Samples samples_;
+    std::array<double, 4> lengths_;  ///< of the sides, by way of their middles
+};
+
+/// The samples of one quad region that are not kept.
+struct QuadSamples {
+    QuadSamples(const surface::Surface& surface, std::uint32_t patch, const surface::Region& region);
+    CellShape::Samples pointers() const;
+
+    std::array<SurfaceSample, 9> samples;
 };
 
 }  // namespace fluxwalk::display

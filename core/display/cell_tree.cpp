@@ -12,13 +12,8 @@ void CellTree::number(std::size_t index) {
     }
 }
 
-void CellTree::numberCenter(const Cell& cell) {
-    const Corners corners = cornersOf(cell);
-    points_.insert(topology_.keyOf(cell.patch, middleOf(corners[0], corners[2])));
-}
-
 // A vertex anywhere inside half an edge implies one at its middle: ancestors' corners are vertices.
-std::optional<unsigned> CellTree::findCrowdedSide(std::size_t index) {
+bool CellTree::isCrowded(std::size_t index) {
     Cell& cell = cells_[index];
     const Corners corners = cornersOf(cell);
     for (unsigned i = 0; i < cell.cornerCount; ++i) {
@@ -28,10 +23,10 @@ std::optional<unsigned> CellTree::findCrowdedSide(std::size_t index) {
         cell.middles[i] = find(cell, middle);
         if (cell.middles[i] != kNone && canBeHalved(cell, i % 2 == 0 ? Axis::x : Axis::y) &&
             (find(cell, middleOf(a, middle)) != kNone || find(cell, middleOf(middle, b)) != kNone)) {
-            return i;
+            return true;
         }
     }
-    return std::nullopt;
+    return false;
 }
 
 void CellTree::split(std::size_t index) {
@@ -42,15 +37,6 @@ void CellTree::split(std::size_t index) {
     cells_[index].childCount = 4;
     for (unsigned k = 0; k < 4; ++k) {
         cells_.push_back(partOf(parent, split, k));
-    }
-}
-
-void CellTree::halve(std::size_t index, Axis axis) {
-    const Cell parent = cells_[index];
-    cells_[index].firstChild = static_cast<std::uint32_t>(cells_.size());
-    cells_[index].childCount = 2;
-    for (unsigned half = 0; half < 2; ++half) {
-        cells_.push_back(halfOf(parent, axis, half));
     }
 }
 

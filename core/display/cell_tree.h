@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/display/cell.h"
@@ -16,18 +15,13 @@ class CellTree {
         : topology_(topology), points_(points), cells_(cells), rootCount_(cells.size()) {}
 
     void number(std::size_t index);
-    /// Numbers a point inside a cell, which must become a corner of what the cell is cut into, or the middle
-    /// of an edge there.
-    void numberCenter(const Cell& cell);
 
-    /// The first side of a leaf, if any, with more than one vertex between its ends, if it can be split
-    /// there; otherwise sets its middles. A leaf has its final middles when a whole pass finds no such side.
-    std::optional<unsigned> findCrowdedSide(std::size_t index);
+    /// Whether a side of a leaf has more than one vertex between its ends and can be split there; otherwise
+    /// sets its middles. A leaf has its final middles when a whole pass finds no such side.
+    bool isCrowded(std::size_t index);
 
     /// In four, as elements are. Children are not numbered.
     void split(std::size_t index);
-    /// In two. Children are not numbered.
-    void halve(std::size_t index, Axis axis);
 
     /// Leaves only, depth-first.
     void keepLeaves();

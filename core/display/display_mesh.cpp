@@ -26,6 +26,15 @@ struct MeshLayout {
     }
 };
 
+struct MeshWorkspace::Buffers {
+    RefineBuffers refine;
+    MeshVertices fine;
+    scene::LitMesh mesh;
+};
+
+MeshWorkspace::MeshWorkspace() : buffers_(std::make_unique<Buffers>()) {}
+MeshWorkspace::~MeshWorkspace() = default;
+
 namespace {
 
 using surface::kMaxLevel;
@@ -78,7 +87,7 @@ CellTable makeTable(std::span<const Cell> cells, std::uint32_t patchCount,
 }
 
 void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, const MeshOptions& options,
-               scene::LitMesh& mesh, DisplayMeshes& out) {
+               MeshWorkspace::Buffers& buffers, DisplayMeshes& out) {
     checkTiling(leaves);
     std::vector<Cell> cells;
     cells.reserve(leaves.size() + leaves.size() / 4);
@@ -89,14 +98,15 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     balance(topology, points, cells);
     auto layout = std::make_shared<MeshLayout>();
     layout->vertices = collectVertices(topology, points, cells, options.creaseAngle);
-    RefinedCells refined = refineForDisplay(
-        topology, cells,
-        {options.curvatureAngle, options.rimRise, options.leastAngle, options.mostCellsForShape});
+    const RefinedCells& refined = refineForDisplay(
+        topology, cells, layout->vertices,
+        {options.curvatureAngle, options.rimRise, options.leastAngle, options.mostCellsForShape},
+        buffers.refine);
     layout->cells = std::move(cells);
     const bool isRefined = !refined.cells.empty();
-    MeshVertices fine;
+    MeshVertices& fine = buffers.fine;
     if (isRefined) {
-        fine = collectVertices(topology, refined.points, refined.cells, options.creaseAngle);
+        collectVertices(topology, refined, options.creaseAngle, fine);
         layout->plan = planCarrying(refined.cells, fine);
         layout->plannedValues = fine.pointOfValue.size();
     }
@@ -104,21 +114,20 @@ void buildSide(const PatchTopology& topology, std::span<const Leaf> leaves, cons
     const std::vector<Cell>& shown = isRefined ? refined.cells : layout->cells;
     const std::array<bool, 2> texcoords{options.texcoords[0] && topology.hasTexcoords(0),
                                         options.texcoords[1] && topology.hasTexcoords(1)};
-    std::vector<std::uint32_t> firstTriangle =
-        triangulate(topology, shown, vertices, layout->values(leaves), texcoords, mesh, layout->valueOf);
+    std::vector<std::uint32_t> firstTriangle = triangulate(topology, shown, vertices, layout->values(leaves),
+                                                           texcoords, buffers.mesh, layout->valueOf);
     layout->valueOf.shrink_to_fit();
     out.tables.push_back(makeTable(shown, topology.surface().patchCount(), std::move(firstTriangle)));
     out.layouts.push_back(std::move(layout));
 }
 
-// Meshes stay for long: room that was reserved for the worst case is given back.
-void shrink(scene::LitMesh& mesh) {
-    mesh.positions.shrink_to_fit();
-    mesh.normals.shrink_to_fit();
-    mesh.irradiance.shrink_to_fit();
-    mesh.triangles.shrink_to_fit();
+void clear(scene::LitMesh& mesh) {
+    mesh.positions.clear();
+    mesh.normals.clear();
+    mesh.irradiance.clear();
+    mesh.triangles.clear();
     for (std::vector<base::Vec2>& set : mesh.texcoords) {
-        set.shrink_to_fit();
+        set.clear();
     }
 }
 
@@ -163,23 +172,31 @@ std::uint64_t DisplayMeshes::layoutBytes() const {
 }
 
 DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
-                                 std::span<const Leaf> leaves, const MeshOptions& options) {
+                                 std::span<const Leaf> leaves, const MeshOptions& options,
+                                 MeshWorkspace& workspace) {
     const SortedLeaves sorted(leaves);
     DisplayMeshes out;
+    scene::LitMesh& mesh = workspace.buffers().mesh;
+    mesh.object = object;
+    mesh.material = material;
     for (const bool back : {false, true}) {
         const std::span<const Leaf> side = sorted.side(back);
         if (side.empty()) {
             continue;
         }
-        const auto mesh = std::make_shared<scene::LitMesh>();
-        mesh->object = object;
-        mesh->material = material;
-        mesh->back = back;
-        buildSide(topology, side, options, *mesh, out);
-        shrink(*mesh);
-        out.meshes.push_back(mesh);
+        clear(mesh);
+        mesh.back = back;
+        buildSide(topology, side, options, workspace.buffers(), out);
+        // Meshes stay for long: the copy is as large as it must be.
+        out.meshes.push_back(std::make_shared<scene::LitMesh>(mesh));
     }
     return out;
+}
+
+DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
+                                 std::span<const Leaf> leaves, const MeshOptions& options) {
+    MeshWorkspace workspace;
+    return buildDisplayMeshes(topology, object, material, leaves, options, workspace);
 }
 
 DisplayMeshes revalueDisplayMeshes(const DisplayMeshes& from, std::span<const Leaf> leaves) {

@@ -59,9 +59,29 @@ struct DisplayMeshes {
     std::uint64_t layoutBytes() const;
 };
 
+/// Memory that meshes are made in, to be used again for the next object: most of the time of first using it
+/// is the system's. Of one thread.
+class MeshWorkspace {
+  public:
+    MeshWorkspace();
+    ~MeshWorkspace();
+    MeshWorkspace(const MeshWorkspace&) = delete;
+    MeshWorkspace& operator=(const MeshWorkspace&) = delete;
+
+    struct Buffers;
+    Buffers& buffers() { return *buffers_; }
+
+  private:
+    std::unique_ptr<Buffers> buffers_;
+};
+
 /// Triangulates the leaves of one object, given in any order; they must tile each patch and side that they
 /// touch. `object` and `material` are copied into the result. The result does not depend on the leaves'
 /// order. Not parallel; objects may be built at the same time.
+DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
+                                 std::span<const Leaf> leaves, const MeshOptions& options,
+                                 MeshWorkspace& workspace);
+/// In memory of its own.
 DisplayMeshes buildDisplayMeshes(const PatchTopology& topology, std::uint32_t object, std::uint32_t material,
                                  std::span<const Leaf> leaves, const MeshOptions& options);
 

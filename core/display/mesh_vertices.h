@@ -27,12 +27,22 @@ struct CellVertices {
     bool isFan = false;
 };
 
+/// Whether a cell is shown as a fan, if something hangs on its edges or not.
+bool isFan(const Cell& cell, bool isPlanar, bool hasMiddles);
+
+struct CenterPoint {
+    Vec3d position{};
+    Vec3d normal{};
+};
+
 struct MeshVertices {
     std::vector<Vertex> vertices;
     std::vector<Vec3d> positions;      ///< of points
     std::vector<std::uint32_t> heads;  ///< of points: first vertex
     std::vector<CellVertices> cells;   ///< parallel to the cells
     std::vector<Vec2d> centers;        ///< (u,v) of the fans' middles, parallel to the cells
+    /// The surface at the fans' middles, parallel to the cells, where it was known already; else empty.
+    std::vector<CenterPoint> centerPoints;
     std::vector<std::uint32_t> pointOfValue;
 };
 
@@ -41,5 +51,11 @@ struct MeshVertices {
 /// at most `creaseAngle` (radians).
 MeshVertices collectVertices(const PatchTopology& topology, const PointTable& points,
                              const std::vector<Cell>& cells, double creaseAngle);
+
+struct RefinedCells;
+
+/// The same for cells whose points were evaluated when they were made, in the memory that `out` has.
+void collectVertices(const PatchTopology& topology, const RefinedCells& refined, double creaseAngle,
+                     MeshVertices& out);
 
 }  // namespace fluxwalk::display

@@ -6,8 +6,6 @@
 
 #include "core/base/photometry.h"
 #include "core/display/cell_regions.h"
-#include "core/display/cell_shape.h"
-#include "core/display/cell_tree.h"
 
 namespace fluxwalk::display {
 
@@ -43,68 +41,122 @@ std::uint32_t extentAlong(const Cell& cell, Axis axis) {
 
 class Refiner {
   public:
-    Refiner(const PatchTopology& topology, std::span<const Cell> cells, const RefineOptions& options)
+    Refiner(const PatchTopology& topology, std::span<const Cell> cells, const MeshVertices& vertices,
+            const RefineOptions& options, RefineBuffers& buffers)
         : topology_(topology),
           surface_(topology.surface()),
           sources_(cells),
+          vertices_(vertices),
           options_(options),
           mostCells_(options.mostCellsAPatch * topology.surface().patchCount()),
           bend_(std::tan(0.5 * std::min(options.curvatureAngle, 3.0))),
           cosine_(std::cos(options.leastAngle)),
           // Halved across, a cell that is longer than this would have to be cut for its shape in any case.
           longFirst_(options.leastAngle > 0.0 ? 0.5 / std::tan(options.leastAngle) : 0.0),
-          points_(0) {}
+          buffers_(buffers),
+          net_(buffers.net),
+          cells_(buffers.cells),
+          nets_(buffers.nets),
+          isCompact_(buffers.isCompact),
+          leafCount_(cells.size()) {}
 
-    RefinedCells run() {
-        cells_.reserve(sources_.size());
-        regions_.reserve(sources_.size());
-        RegionCursor cursor(surface_);
-        for (std::uint32_t i = 0; i < sources_.size(); ++i) {
-            cells_.push_back(makeCell(topology_, sources_[i].patch, sources_[i].path, i));
-            regions_.push_back(cursor.at(cells_.back()));
+    void run() {
+        buffers_.refined.cells.clear();
+        buffers_.refined.cellSamples.clear();
+        if (!needsCuts()) {
+            return;
         }
-        leafCount_ = cells_.size();
-        tree_.emplace(topology_, points_, cells_);
+        addRoots();
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             isCompact_.resize(cells_.size(), 0);
             cutForCurvature(i);
         }
         cutForShape();
         if (cells_.size() == sources_.size()) {
-            return {{}, PointTable(0)};
+            return;
         }
-        // About one corner for each quad, half a one for each triangle.
-        points_ = PointTable(leafCount_ + leafCount_ / 8);
-        numberAll();
         while (balanceAll()) {
             cutForShape();
-            numberNew();
         }
-        tree_->keepLeaves();
-        return {std::move(cells_), std::move(points_)};
+        takeLeaves();
     }
 
   private:
     bool isQuad(std::size_t i) const { return cells_[i].cornerCount == 4; }
-    CellShape shapeOf(std::size_t i) const { return {surface_, cells_[i].patch, regions_[i]}; }
+
+    CellShape shapeOf(std::size_t i) {
+        CellNet& net = nets_[i];
+        std::array<std::uint32_t, 9> numbers{};
+        for (unsigned k = 0; k < 4; ++k) {
+            numbers[2 * k] = net.corners[k];
+            numbers[2 * k + 1] = net_.middleOf(net, k, 4);
+        }
+        numbers[8] = net_.centerOf(net);
+        CellShape::Samples samples{};
+        for (unsigned k = 0; k < 9; ++k) {
+            samples[k] = &net_.samples()[numbers[k]];
+        }
+        return CellShape(samples);
+    }
+
+    // Flat cells are mostly shown as they are: that is seen before anything is set up.
+    bool needsCuts() const {
+        RegionCursor cursor(surface_);
+        for (const Cell& source : sources_) {
+            if (!surface_.isPlanar(source.patch)) {
+                return true;
+            }
+            if (source.cornerCount != 4 || !shapesCells()) {
+                continue;
+            }
+            const QuadSamples samples(surface_, source.patch, cursor.at(source));
+            if (shapeCut(source, source, CellShape(samples.pointers()))) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void addRoots() {
+        net_.reset(topology_, vertices_);
+        cells_.clear();
+        nets_.clear();
+        isCompact_.clear();
+        RegionCursor cursor(surface_);
+        for (std::uint32_t i = 0; i < sources_.size(); ++i) {
+            cells_.push_back(makeCell(topology_, sources_[i].patch, sources_[i].path, i));
+            nets_.push_back(net_.addRoot(sources_[i], vertices_.cells[i], cursor.at(sources_[i])));
+        }
+    }
 
     void quarter(std::size_t i) {
-        const Region region = regions_[i];
-        tree_->split(i);
-        for (const Region& quarter :
-             surface::childRegions(surface_, cells_[i].patch, region, surface::Split::quarters)) {
-            regions_.push_back(quarter);
+        const Cell parent = cells_[i];
+        setChildren(i, 4);
+        const std::array<CellNet, 4> nets = net_.quarter(nets_[i]);
+        for (unsigned k = 0; k < 4; ++k) {
+            cells_.push_back(partOf(parent, surface::Split::quarters, k));
+            nets_.push_back(nets[k]);
         }
         leafCount_ += 3;
     }
 
     void halve(std::size_t i, Axis axis) {
-        const Region region = regions_[i];
-        tree_->halve(i, axis);
-        for (const Region& half : halfRegions(surface_, cells_[i].patch, region, axis)) {
-            regions_.push_back(half);
+        const Cell parent = cells_[i];
+        setChildren(i, 2);
+        const std::array<CellNet, 2> nets = net_.halve(nets_[i], axis);
+        if (i < sources_.size()) {
+            net_.splitBetween(nets[0], axis);
+        }
+        for (unsigned half = 0; half < 2; ++half) {
+            cells_.push_back(halfOf(parent, axis, half));
+            nets_.push_back(nets[half]);
         }
         ++leafCount_;
+    }
+
+    void setChildren(std::size_t i, std::uint8_t count) {
+        cells_[i].firstChild = static_cast<std::uint32_t>(cells_.size());
+        cells_[i].childCount = count;
     }
 
     // Along y first, so that the quarters are those of the solution.
@@ -143,27 +195,21 @@ class Refiner {
         return shape.isLonger(Axis::x, kLong) || shape.isLonger(Axis::y, kLong);
     }
 
-    Cuts triangleCuts(std::size_t i) const {
+    Cuts triangleCuts(std::size_t i) {
         const Cell& cell = cells_[i];
-        const Region& region = regions_[i];
         if (!mayRefine(cell, Axis::x)) {
             return {};
         }
-        if (!surface_.normalsLieWithin(cell.patch, region, options_.curvatureAngle)) {
+        const CellNet& net = nets_[i];
+        if (!surface_.normalsLieWithin(cell.patch, net_.regionOf(net, 3), options_.curvatureAngle)) {
             return {true, true};
-        }
-        std::array<Vec3d, 3> corners{};
-        for (unsigned k = 0; k < 3; ++k) {
-            corners[k] = surface_.evaluate(cell.patch, region.corners[k]).position;
         }
         bool isBent = false;
         for (unsigned k = 0; k < 3 && !isBent; ++k) {
-            const Vec2d& a = region.corners[k];
-            const Vec2d& b = region.corners[(k + 1) % 3];
-            const Vec3d& from = corners[k];
-            const Vec3d& to = corners[(k + 1) % 3];
-            const Vec3d middle =
-                surface_.evaluate(cell.patch, surface_.splitPoint(cell.patch, a, b)).position;
+            const std::uint32_t number = net_.middleOf(net, k, 3);
+            const Vec3d& middle = net_.samples()[number].position;
+            const Vec3d& from = net_.samples()[net.corners[k]].position;
+            const Vec3d& to = net_.samples()[net.corners[(k + 1) % 3]].position;
             isBent = glm::distance(middle, 0.5 * (from + to)) > 0.5 * bend_ * glm::distance(from, to);
         }
         return {isBent, isBent};
@@ -199,7 +245,7 @@ class Refiner {
             const double ratio = shape.longestAlong(along) / shape.longestAlong(across);
             const bool isCheap = isOfSides || (ratio < kVeryLong && leafCount_ < mostCells_ / kLaterCuts);
             if (isOnlyAcross && longFirst_ > 0.0 && ratio > longFirst_ && isCheap &&
-                mayCutForShape(cell, shape, along)) {
+                mayCutForShape(cell, sourceOf(i), shape, along)) {
                 return {along == Axis::x, along == Axis::y};
             }
         }
@@ -212,7 +258,7 @@ class Refiner {
         if (angle < 0.5 * base::kPi && shape.turnsBeyond(2.0 * angle)) {
             return false;
         }
-        return surface_.normalsLieWithin(cells_[i].patch, regions_[i], angle);
+        return surface_.normalsLieWithin(cells_[i].patch, net_.regionOf(nets_[i], 4), angle);
     }
 
     bool isTooBent(const Cell& cell, const CellShape& shape, unsigned side) const {
@@ -227,45 +273,51 @@ class Refiner {
                shape.riseOverWidth(side) > kInnerRise;
     }
 
-    bool mayCutForShape(const Cell& cell, const CellShape& shape, Axis axis) const {
+    const Cell& sourceOf(std::size_t i) const { return sources_[cells_[i].source]; }
+
+    bool mayCutForShape(const Cell& cell, const Cell& source, const CellShape& shape, Axis axis) const {
         return canBeHalved(cell, axis) &&
                (!shape.endsInPoint(axis) || extentAlong(cell, axis) > kPoleExtent) &&
                (!surface_.isPlanar(cell.patch) ||
-                extentAlong(cell, axis) > extentAlong(sources_[cell.source], axis) / kMaxPlanarStrips);
+                extentAlong(cell, axis) > extentAlong(source, axis) / kMaxPlanarStrips);
+    }
+
+    bool shapesCells() const { return options_.leastAngle > 0.0 && leafCount_ < mostCells_; }
+
+    // The axis along which a quad is cut for its shape.
+    std::optional<Axis> shapeCut(const Cell& cell, const Cell& source, const CellShape& shape) const {
+        for (const Axis axis : {Axis::x, Axis::y}) {
+            if (shape.isLonger(axis, kLong)) {
+                const bool isCut = shape.hasAngleBelow(cosine_) && mayCutForShape(cell, source, shape, axis);
+                return isCut ? std::optional(axis) : std::nullopt;
+            }
+        }
+        return std::nullopt;
     }
 
     // Breadth-first: if there are too many, all are cut alike.
     void cutForShape() {
         for (; shaped_ < cells_.size(); ++shaped_) {
-            if (cells_[shaped_].childCount != 0 || !isQuad(shaped_) || options_.leastAngle <= 0.0 ||
-                leafCount_ >= mostCells_ || (shaped_ < isCompact_.size() && isCompact_[shaped_] != 0)) {
+            if (cells_[shaped_].childCount != 0 || !isQuad(shaped_) || !shapesCells() ||
+                (shaped_ < isCompact_.size() && isCompact_[shaped_] != 0)) {
                 continue;
             }
             const CellShape shape = shapeOf(shaped_);
-            for (const Axis axis : {Axis::x, Axis::y}) {
-                if (shape.isLonger(axis, kLong)) {
-                    if (shape.hasAngleBelow(cosine_) && mayCutForShape(cells_[shaped_], shape, axis)) {
-                        halve(shaped_, axis);
-                    }
-                    break;
-                }
+            if (const auto axis = shapeCut(cells_[shaped_], sourceOf(shaped_), shape)) {
+                halve(shaped_, *axis);
             }
         }
     }
 
-    void numberAll() {
-        for (std::size_t i = 0; i < sources_.size(); ++i) {
-            if (cells_[i].childCount != 0 && isQuad(i)) {
-                tree_->numberCenter(cells_[i]);
+    // The first side of a cell, if any, with more than one vertex between its ends, if it can be cut there.
+    std::optional<unsigned> findCrowdedSide(std::size_t i) const {
+        for (unsigned side = 0; side < cells_[i].cornerCount; ++side) {
+            if (net_.isCrowded(nets_[i].sides[side]) &&
+                canBeHalved(cells_[i], side % 2 == 0 ? Axis::x : Axis::y)) {
+                return side;
             }
         }
-        numberNew();
-    }
-
-    void numberNew() {
-        for (; numbered_ < cells_.size(); ++numbered_) {
-            tree_->number(numbered_);
-        }
+        return std::nullopt;
     }
 
     bool balanceAll() {
@@ -277,12 +329,8 @@ class Refiner {
                 if (cells_[i].childCount != 0) {
                     continue;
                 }
-                if (const std::optional<unsigned> side = tree_->findCrowdedSide(i)) {
-                    if (i < sources_.size() && isQuad(i)) {
-                        tree_->numberCenter(cells_[i]);
-                    }
+                if (const std::optional<unsigned> side = findCrowdedSide(i)) {
                     cut(i, {*side % 2 == 0, *side % 2 != 0});
-                    numberNew();
                     changed = true;
                 }
             }
@@ -290,31 +338,72 @@ class Refiner {
         return cells_.size() > before;
     }
 
+    // Depth-first.
+    void takeLeaves() {
+        RefinedCells& out = buffers_.refined;
+        std::vector<std::uint32_t>& stack = buffers_.stack;
+        for (std::uint32_t root = 0; root < sources_.size(); ++root) {
+            stack.push_back(root);
+            while (!stack.empty()) {
+                const std::uint32_t i = stack.back();
+                stack.pop_back();
+                const Cell& cell = cells_[i];
+                for (std::uint32_t k = cell.childCount; k-- > 0;) {
+                    stack.push_back(cell.firstChild + k);
+                }
+                if (cell.childCount == 0) {
+                    out.cells.push_back(cell);
+                    out.cellSamples.push_back(samplesOf(i));
+                }
+            }
+        }
+        out.samples = net_.samples();
+        out.pointCount = net_.pointCount();
+    }
+
+    CellSamples samplesOf(std::size_t i) {
+        const Cell& cell = cells_[i];
+        CellNet& net = nets_[i];
+        CellSamples own;
+        own.corners = net.corners;
+        for (unsigned k = 0; k < cell.cornerCount; ++k) {
+            if (net_.isSplit(net.sides[k])) {
+                own.middles[k] = net_.vertexOn(net, k, cell.cornerCount);
+            }
+        }
+        if (isFan(cell, surface_.isPlanar(cell.patch), own.middles != CellSamples{}.middles)) {
+            own.center = net_.centerOf(net);
+        }
+        return own;
+    }
+
     const PatchTopology& topology_;
     const surface::Surface& surface_;
     std::span<const Cell> sources_;
+    const MeshVertices& vertices_;
     const RefineOptions& options_;
     std::size_t mostCells_;
     double bend_;
     double cosine_;
     double longFirst_;
-    PointTable points_;
-    std::vector<Cell> cells_;
-    std::vector<Region> regions_;  ///< parallel to cells_
+    RefineBuffers& buffers_;
+    SampleNet& net_;
+    std::vector<Cell>& cells_;
+    std::vector<CellNet>& nets_;  ///< parallel to cells_
     /// Cells that are known not to be long, of the first ones.
-    std::vector<std::uint8_t> isCompact_;
-    std::optional<CellTree> tree_;
-    std::size_t leafCount_ = 0;
-    /// Cells whose shape was looked at, and that have their points.
+    std::vector<std::uint8_t>& isCompact_;
+    std::size_t leafCount_;
+    /// Cells whose shape was looked at.
     std::size_t shaped_ = 0;
-    std::size_t numbered_ = 0;
 };
 
 }  // namespace
 
-RefinedCells refineForDisplay(const PatchTopology& topology, std::span<const Cell> cells,
-                              const RefineOptions& options) {
-    return Refiner(topology, cells, options).run();
+const RefinedCells& refineForDisplay(const PatchTopology& topology, std::span<const Cell> cells,
+                                     const MeshVertices& vertices, const RefineOptions& options,
+                                     RefineBuffers& buffers) {
+    Refiner(topology, cells, vertices, options, buffers).run();
+    return buffers.refined;
 }
 
 }  // namespace fluxwalk::display

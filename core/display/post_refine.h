@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/display/cell.h"
+#include "core/display/sample_net.h"
 
 /// Refinement for the eye, after the solution and without new transport (Schaefer, section 1, curvature-based
 /// post-refinement).
@@ -26,15 +27,37 @@ struct RefineOptions {
 inline constexpr unsigned kMaxExtraLevels = 7;
 inline constexpr unsigned kMaxPlanarStrips = 4;
 
-/// Cells of a mesh with their points: balanced, as balance() leaves them.
-struct RefinedCells {
-    std::vector<Cell> cells;
-    PointTable points;
+/// Samples of a cell, as CellVertices has its vertices; in the middle where it is shown as a fan.
+struct CellSamples {
+    std::array<std::uint32_t, 4> corners{};
+    std::array<std::uint32_t, 4> middles{kNone, kNone, kNone, kNone};
+    std::uint32_t center = kNone;
 };
 
-/// What comes out is ordered as the cells are, its `source` is the index of the cell that holds it. The
-/// middles of quads that were cut are points. Cells need no numbers. Empty if no cell needs to be cut.
-RefinedCells refineForDisplay(const PatchTopology& topology, std::span<const Cell> cells,
-                              const RefineOptions& options);
+/// Balanced cells, as balance() leaves them, with what is known of the surface at their vertices.
+struct RefinedCells {
+    std::vector<Cell> cells;  ///< without points
+    std::vector<CellSamples> cellSamples;
+    std::span<const SurfaceSample> samples;
+    std::uint32_t pointCount = 0;
+};
+
+/// What refining works in, to be used again: fresh memory costs more than what is done in it. Made for
+/// 10^5 cells it holds about 60 MB.
+struct RefineBuffers {
+    SampleNet net;
+    std::vector<Cell> cells;
+    std::vector<CellNet> nets;
+    std::vector<std::uint8_t> isCompact;
+    std::vector<std::uint32_t> stack;
+    RefinedCells refined;
+};
+
+/// Cells and vertices of a balanced mesh. What comes out, in `buffers`, is ordered as the cells are, its
+/// `source` is the index of the cell that holds it. The middles of quads that were cut are points. Empty if
+/// no cell needs to be cut.
+const RefinedCells& refineForDisplay(const PatchTopology& topology, std::span<const Cell> cells,
+                                     const MeshVertices& vertices, const RefineOptions& options,
+                                     RefineBuffers& buffers);
 
 }  // namespace fluxwalk::display

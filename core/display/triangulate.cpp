@@ -120,12 +120,20 @@ class Triangulator {
             }
         }
         const Vec2d& uv = vertices_.centers[cell];
-        const surface::SurfacePoint at = surface_.evaluate(patch, uv);
+        const CenterPoint at = centerPoint(cell, patch, uv);
         const std::uint32_t center = emit(at.position, Vec3(at.normal), values_.centers[cell],
                                           values_.values.size() + cell, patch, uv);
         for (unsigned k = 0; k < count; ++k) {
             addTriangle(center, ring[k], ring[k + 1 == count ? 0 : k + 1]);
         }
+    }
+
+    CenterPoint centerPoint(std::size_t cell, std::uint32_t patch, const Vec2d& uv) const {
+        if (!vertices_.centerPoints.empty()) {
+            return vertices_.centerPoints[cell];
+        }
+        const surface::SurfacePoint at = surface_.evaluate(patch, uv);
+        return {at.position, at.normal};
     }
 
     // Two triangles, cut from the middle of the leaf outwards, as its own fan is; but along the shorter

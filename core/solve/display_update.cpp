@@ -83,10 +83,10 @@ void DisplayUpdate::rebuildObject(std::size_t o, const display::MeshOptions& opt
     const bool isSameShape = shown.digest != 0 && shown.shape == shapeDigest;
     shown.digest = digest;
     shown.shape = shapeDigest;
-    shown.meshes = isSameShape
-                       ? display::revalueDisplayMeshes(shown.meshes, leaves)
-                       : display::buildDisplayMeshes(*topologies_[o], static_cast<std::uint32_t>(o),
-                                                     problem_.scene->objects[o].material, leaves, options);
+    shown.meshes = isSameShape ? display::revalueDisplayMeshes(shown.meshes, leaves)
+                               : display::buildDisplayMeshes(*topologies_[o], static_cast<std::uint32_t>(o),
+                                                             problem_.scene->objects[o].material, leaves,
+                                                             options, work.meshes);
 }
 
 bool DisplayUpdate::rebuild(double curvatureAngle, std::vector<Shown>& all, Clock::time_point until) {

@@ -46,6 +46,7 @@ class DisplayUpdate {
     struct Workspace {
         std::vector<display::Leaf> leaves;
         std::vector<NodeId> stack;
+        display::MeshWorkspace meshes;
     };
 
     /// Rebuilds what changed, as long as there is time; curved surfaces with the given curvatureAngle

@@ -166,39 +166,74 @@ BezierPiece restrictTriangle(const BezierPiece& piece, const ParameterMap& part)
     return result;
 }
 
+/// Vectors by their coordinates, which the loops over them take several of at a time.
+template <std::size_t N>
+struct Vectors {
+    std::array<double, N> x{};
+    std::array<double, N> y{};
+    std::array<double, N> z{};
+
+    Vec3d at(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    void set(std::size_t i, const Vec3d& v) {
+        x[i] = v.x;
+        y[i] = v.y;
+        z[i] = v.z;
+    }
+};
+
 /// Bezier coefficients of du x dv up to positive factors: 36 of degree (5, 5), or 28 of degree 6.
 struct NormalNet {
-    std::array<Vec3d, 36> vectors{};
+    Vectors<36> vectors;
     std::size_t count = 0;
 };
+
+NormalNet normalNetOfQuad(const Derivative& du, const Derivative& dv) {
+    NormalNet net;
+    net.count = 36;
+    Vectors<12> second;
+    for (std::size_t i = 0; i < 12; ++i) {
+        second.set(i, dv.vectors[i]);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3d first = du.vectors[3 * j + i];
+            for (std::size_t l = 0; l < 3; ++l) {
+                const double outer = kQuadratic[i] * kCubic[j];
+                const double* bx = second.x.data() + 4 * l;
+                const double* by = second.y.data() + 4 * l;
+                const double* bz = second.z.data() + 4 * l;
+                double* x = net.vectors.x.data() + 6 * (j + l) + i;
+                double* y = net.vectors.y.data() + 6 * (j + l) + i;
+                double* z = net.vectors.z.data() + 6 * (j + l) + i;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const double weight = outer * kCubic[k] * kQuadratic[l];
+                    x[k] += weight * (first.y * bz[k] - by[k] * first.z);
+                    y[k] += weight * (first.z * bx[k] - bz[k] * first.x);
+                    z[k] += weight * (first.x * by[k] - bx[k] * first.y);
+                }
+            }
+        }
+    }
+    return net;
+}
 
 NormalNet normalNet(const BezierPiece& piece) {
     const Derivative du = alongU(piece);
     const Derivative dv = alongV(piece);
-    NormalNet net;
     if (piece.domain == PatchDomain::quad) {
-        net.count = 36;
-        for (std::size_t j = 0; j < 4; ++j) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                for (std::size_t l = 0; l < 3; ++l) {
-                    for (std::size_t k = 0; k < 4; ++k) {
-                        const double weight = kQuadratic[i] * kCubic[j] * kCubic[k] * kQuadratic[l];
-                        net.vectors[6 * (j + l) + i + k] +=
-                            weight * glm::cross(du.vectors[3 * j + i], dv.vectors[4 * l + k]);
-                    }
-                }
-            }
-        }
-        return net;
+        return normalNetOfQuad(du, dv);
     }
+    NormalNet net;
     net.count = 28;
     for (std::size_t j = 0; j < 4; ++j) {
         for (std::size_t i = 0; i + j < 4; ++i) {
             for (std::size_t l = 0; l < 4; ++l) {
                 for (std::size_t k = 0; k + l < 4; ++k) {
-                    net.vectors[triangleIndex(6, i + k, j + l)] +=
-                        multinomial(3, i, j) * multinomial(3, k, l) *
-                        glm::cross(du.vectors[triangleIndex(3, i, j)], dv.vectors[triangleIndex(3, k, l)]);
+                    const std::size_t at = triangleIndex(6, i + k, j + l);
+                    net.vectors.set(at,
+                                    net.vectors.at(at) + multinomial(3, i, j) * multinomial(3, k, l) *
+                                                             glm::cross(du.vectors[triangleIndex(3, i, j)],
+                                                                        dv.vectors[triangleIndex(3, k, l)]));
                 }
             }
         }
@@ -264,34 +299,62 @@ Box boundPiece(const BezierPiece& piece) {
     return box;
 }
 
-NormalCone boundNormals(const BezierPiece& piece) {
+namespace {
+
+/// The mean direction of a piece's normals and the one that is farthest from it, where they have a mean.
+struct NormalSpread {
+    Vec3d axis{0, 0, 1};
+    Vec3d farthest{};
+    bool hasAxis = false;
+};
+
+NormalSpread spreadOfNormals(const BezierPiece& piece) {
     NormalNet net = normalNet(piece);
+    Vectors<36>& v = net.vectors;
+    for (std::size_t i = 0; i < net.count; ++i) {
+        const double length = std::sqrt(v.x[i] * v.x[i] + v.y[i] * v.y[i] + v.z[i] * v.z[i]);
+        v.x[i] = length > 0.0 ? v.x[i] / length : 0.0;
+        v.y[i] = length > 0.0 ? v.y[i] / length : 0.0;
+        v.z[i] = length > 0.0 ? v.z[i] / length : 0.0;
+    }
     Vec3d sum(0.0);
     for (std::size_t i = 0; i < net.count; ++i) {
-        const double length = glm::length(net.vectors[i]);
-        net.vectors[i] = length > 0.0 ? net.vectors[i] / length : Vec3d(0.0);
-        sum += net.vectors[i];
+        sum += v.at(i);
     }
+    NormalSpread spread;
     const double length = glm::length(sum);
     if (!(length > 1e-6)) {
-        return {Vec3d(0, 0, 1), base::kPi};
+        return spread;
     }
-    NormalCone cone{sum / length, 0.0};
-    const Vec3d* farthest = nullptr;
+    spread.hasAxis = true;
+    spread.axis = sum / length;
     double distance = -1.0;
     for (std::size_t i = 0; i < net.count; ++i) {
-        const Vec3d away = net.vectors[i] - cone.axis;
+        const Vec3d away = v.at(i) - spread.axis;
         const double squared = glm::dot(away, away);
-        if (squared > distance && net.vectors[i] != Vec3d(0.0)) {
+        if (squared > distance && v.at(i) != Vec3d(0.0)) {
             distance = squared;
-            farthest = &net.vectors[i];
+            spread.farthest = v.at(i);
         }
     }
-    cone.halfAngle = NormalCone::angleBetween(*farthest, cone.axis);
-    if (cone.halfAngle >= 0.5 * base::kPi) {
-        cone.halfAngle = base::kPi;
+    return spread;
+}
+
+}  // namespace
+
+NormalCone boundNormals(const BezierPiece& piece) {
+    const NormalSpread spread = spreadOfNormals(piece);
+    const double halfAngle =
+        spread.hasAxis ? NormalCone::angleBetween(spread.farthest, spread.axis) : base::kPi;
+    return {spread.axis, halfAngle >= 0.5 * base::kPi ? base::kPi : halfAngle};
+}
+
+bool normalsLieWithin(const BezierPiece& piece, double halfAngle) {
+    if (halfAngle >= 0.5 * base::kPi) {
+        return boundNormals(piece).halfAngle <= halfAngle;
     }
-    return cone;
+    const NormalSpread spread = spreadOfNormals(piece);
+    return spread.hasAxis && base::AngleLimit(halfAngle).holds(spread.farthest, spread.axis);
 }
 
 LinearModel linearize(const BezierPiece& piece) {

@@ -57,6 +57,9 @@ Box boundPiece(const BezierPiece& piece);
 /// cone below a right angle about those holds them all; otherwise every direction.
 NormalCone boundNormals(const BezierPiece& piece);
 
+/// Whether that cone is no wider than `halfAngle` (radians), for less.
+bool normalsLieWithin(const BezierPiece& piece, double halfAngle);
+
 /// First-order model about the middle of the domain, and how far the derivatives stray from those there: the
 /// largest distances of control vectors of du and of dv.
 struct LinearModel {

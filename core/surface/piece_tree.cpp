@@ -6,6 +6,7 @@
 #include "core/base/check.h"
 #include "core/surface/region.h"
 #include "core/surface/region_clip.h"
+#include "core/surface/turns.h"
 
 namespace fluxwalk::surface {
 
@@ -34,6 +35,25 @@ unsigned quarterAt(PatchDomain domain, const Vec2d& st) {
 // The same quarter's coordinates of a parameter; exact for dyadic fractions.
 Vec2d intoQuarter(const ParameterMap& quarter, const Vec2d& st) {
     return {(st.x - quarter.origin.x) / quarter.du.x, (st.y - quarter.origin.y) / quarter.dv.y};
+}
+
+// The quarter of a quad domain that is the only one to meet a region, as overlapsDomain() tells.
+std::optional<unsigned> onlyQuarter(const Region& region) {
+    constexpr std::array<std::array<unsigned, 2>, 2> kQuarters{{{0, 3}, {1, 2}}};
+    const auto [lower, upper] = parameterBox(region);
+    std::array<unsigned, 2> half{};
+    for (int axis = 0; axis < 2; ++axis) {
+        const auto meets = [&](double from) {
+            return 2.0 * (upper[axis] - from) > kRegionRounding &&
+                   1.0 - 2.0 * (lower[axis] - from) > kRegionRounding;
+        };
+        const bool isHigh = meets(0.5);
+        if (meets(0.0) == isHigh) {
+            return std::nullopt;
+        }
+        half[static_cast<std::size_t>(axis)] = isHigh ? 1 : 0;
+    }
+    return kQuarters[half[0]][half[1]];
 }
 
 bool isFlat(const LinearModel& model) {
@@ -235,6 +255,49 @@ SurfacePoint PieceTree::pointAt(std::uint32_t patch, const Vec2d& uv) const {
     return result;
 }
 
+bool PieceTree::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
+    // Down to where more than one part is met, or the only one is a leaf.
+    const Node* node = &nodes_[patch];
+    Region part = region;
+    while (domain_ == PatchDomain::quad && node->firstChild != kNone) {
+        const std::optional<unsigned> quarter = onlyQuarter(part);
+        if (!quarter) {
+            break;
+        }
+        const ParameterMap map = quarterMap(domain_, *quarter);
+        for (Vec2d& corner : part.corners) {
+            corner = 2.0 * (corner - map.origin);
+        }
+        node = &nodes_[node->firstChild + *quarter];
+    }
+    if (node->firstChild == kNone && !coversDomain(part, domain_)) {
+        const ParameterMap within = partOfFacet(part);
+        if (within.determinant() > 0.0) {
+            const Facet& facet = facets_[node->facet];
+            return surface::normalsLieWithin(restrictPiece(pieces_[facet.piece], facet.inPiece.then(within)),
+                                             halfAngle);
+        }
+    }
+    RegionBounds result;
+    bool isEmpty = true;
+    collectBounds(*node, part, result, isEmpty);
+    return result.normals.halfAngle <= halfAngle;
+}
+
+ParameterMap PieceTree::partOfFacet(const Region& region) const {
+    ParameterMap within;
+    if (domain_ == PatchDomain::quad) {
+        auto [lower, upper] = parameterBox(region);
+        lower = glm::clamp(lower, Vec2d(0.0), Vec2d(1.0));
+        upper = glm::clamp(upper, Vec2d(0.0), Vec2d(1.0));
+        within = {lower, {upper.x - lower.x, 0.0}, {0.0, upper.y - lower.y}};
+    } else if (liesInDomain(region, domain_) && region.cornerCount == 3) {
+        within = {region.corners[0], region.corners[1] - region.corners[0],
+                  region.corners[2] - region.corners[0]};
+    }
+    return within;
+}
+
 RegionBounds PieceTree::bounds(std::uint32_t patch, const Region& region) const {
     RegionBounds result;
     bool isEmpty = true;
@@ -255,21 +318,7 @@ void PieceTree::collectBounds(const Node& node, const Region& region, RegionBoun
             }
             return;
         }
-        ParameterMap within;
-        if (domain_ == PatchDomain::quad) {
-            Vec2d lower(1.0);
-            Vec2d upper(0.0);
-            for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
-                lower = glm::min(lower, region.corners[i]);
-                upper = glm::max(upper, region.corners[i]);
-            }
-            lower = glm::clamp(lower, Vec2d(0.0), Vec2d(1.0));
-            upper = glm::clamp(upper, Vec2d(0.0), Vec2d(1.0));
-            within = {lower, {upper.x - lower.x, 0.0}, {0.0, upper.y - lower.y}};
-        } else if (liesInDomain(region, domain_) && region.cornerCount == 3) {
-            within = {region.corners[0], region.corners[1] - region.corners[0],
-                      region.corners[2] - region.corners[0]};
-        }
+        const ParameterMap within = partOfFacet(region);
         if (within.determinant() > 0.0) {
             const Facet& facet = facets_[node.facet];
             const BezierPiece net = restrictPiece(pieces_[facet.piece], facet.inPiece.then(within));

@@ -51,6 +51,8 @@ class PieceTree {
     /// of the nearest place where they are not.
     SurfacePoint pointAt(std::uint32_t patch, const Vec2d& uv) const;
     RegionBounds bounds(std::uint32_t patch, const Region& region) const;
+    /// Whether the normals' cone in those bounds is no wider than `halfAngle` (radians), for less.
+    bool normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const;
     double area(std::uint32_t patch, const Region& region) const;
     Vec2d locate(std::uint32_t patch, const Vec3d& position) const;
 
@@ -75,6 +77,8 @@ class PieceTree {
     void summarize(std::uint32_t node);
     void join(std::vector<std::uint32_t>& patches, std::size_t begin, std::size_t end, std::uint32_t place);
     void collectBounds(const Node& node, const Region& region, RegionBounds& result, bool& isEmpty) const;
+    /// What of a leaf's domain bounds a region; all of it where that cannot be told.
+    ParameterMap partOfFacet(const Region& region) const;
     double collectArea(const Node& node, const Region& region) const;
 
     PatchDomain domain_;

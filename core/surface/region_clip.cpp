@@ -27,9 +27,6 @@ constexpr std::size_t sideCount(PatchDomain domain) {
     return domain == PatchDomain::quad ? 4 : 3;
 }
 
-/// Rounding of parameters that are no dyadic fractions.
-constexpr double kRounding = 1e-12;
-
 }  // namespace
 
 Region mapInto(const ParameterMap& part, const Region& region) {
@@ -58,7 +55,7 @@ bool coversDomain(const Region& region, PatchDomain domain) {
 bool liesInDomain(const Region& region, PatchDomain domain) {
     for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
         for (std::size_t side = 0; side < sideCount(domain); ++side) {
-            if (insideSide(domain, side, region.corners[i]) < -kRounding) {
+            if (insideSide(domain, side, region.corners[i]) < -kRegionRounding) {
                 return false;
             }
         }
@@ -70,7 +67,7 @@ bool overlapsDomain(const Region& region, PatchDomain domain) {
     for (std::size_t side = 0; side < sideCount(domain); ++side) {
         bool anyInside = false;
         for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
-            anyInside = anyInside || insideSide(domain, side, region.corners[i]) > kRounding;
+            anyInside = anyInside || insideSide(domain, side, region.corners[i]) > kRegionRounding;
         }
         if (!anyInside) {
             return false;
@@ -84,7 +81,7 @@ bool overlapsDomain(const Region& region, PatchDomain domain) {
         bool anyInside = false;
         for (std::uint32_t i = 0; i < region.cornerCount; ++i) {
             const Vec2d& p = region.corners[i];
-            anyInside = anyInside || (alongU ? p.x : p.y) < 1.0 - kRounding;
+            anyInside = anyInside || (alongU ? p.x : p.y) < 1.0 - kRegionRounding;
         }
         if (!anyInside) {
             return false;

@@ -5,6 +5,9 @@
 /// Regions in the coordinates of a part of their patch.
 namespace fluxwalk::surface {
 
+/// Rounding of parameters that are no dyadic fractions.
+inline constexpr double kRegionRounding = 1e-12;
+
 /// The region as seen from a part of the domain.
 Region mapInto(const ParameterMap& part, const Region& region);
 

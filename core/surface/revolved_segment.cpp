@@ -52,13 +52,12 @@ RevolvedSegment::RevolvedSegment(const base::Mat4d& worldFromUnit, const End& fi
     FLUXWALK_CHECK(first.radius + last.radius > 0.0);
     FLUXWALK_CHECK(first.radius != last.radius || first.height != last.height);
     // The first patch stands for all, so that strips meet around the axis.
-    strips_ = measureStrips([this](const Vec2d& uv) { return positionAt(0, uv); });
+    strips_ = measureStrips([this](const Vec2d& uv) { return positionAt(turnAt(0, partOf(uv.x)), uv.y); });
 }
 
-Vec3d RevolvedSegment::positionAt(std::uint32_t patch, const Vec2d& uv) const {
-    const Vec2d turn = turnAt(patch, partOf(uv.x));
-    const double radius = radiusAt(uv.y);
-    return map_.toWorld({radius * turn.x, heightAt(uv.y), -radius * turn.y});
+Vec3d RevolvedSegment::positionAt(const Vec2d& turn, double v) const {
+    const double radius = radiusAt(v);
+    return map_.toWorld({radius * turn.x, heightAt(v), -radius * turn.y});
 }
 
 // Outward normal on the line at a turn, in the world, as long as the area measure of the unit form at radius
@@ -73,7 +72,7 @@ SurfacePoint RevolvedSegment::evaluate(std::uint32_t patch, const Vec2d& uv) con
     const Vec2d turn = turnAt(patch, partOf(uv.x));
     const Vec3d outward = normalAlong(turn);
     const double stretch = glm::length(outward);
-    return {positionAt(patch, uv), (inside_ ? -outward : outward) / stretch,
+    return {positionAt(turn, uv.y), (inside_ ? -outward : outward) / stretch,
             0.5 * kPi * radiusAt(uv.y) * map_.volume * stretch};
 }
 
@@ -138,7 +137,7 @@ RegionBounds RevolvedSegment::bounds(std::uint32_t patch, const Region& region) 
 
 bool RevolvedSegment::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
     const auto [lower, upper] = parameterBox(region);
-    return coneAround(normalHull(arcBetween(patch, lower.x, upper.x)), halfAngle).halfAngle <= halfAngle;
+    return isWithinCone(normalHull(arcBetween(patch, lower.x, upper.x)), halfAngle);
 }
 
 // Integral over u of the area measure at radius 1.

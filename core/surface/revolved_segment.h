@@ -53,7 +53,8 @@ class RevolvedSegment : public Surface {
   private:
     double radiusAt(double v) const { return (1.0 - v) * first_.radius + v * last_.radius; }
     double heightAt(double v) const { return (1.0 - v) * first_.height + v * last_.height; }
-    Vec3d positionAt(std::uint32_t patch, const Vec2d& uv) const;
+    /// At a point (cos, sin) of the turn.
+    Vec3d positionAt(const Vec2d& turn, double v) const;
     Arc arcBetween(std::uint32_t patch, double u0, double u1) const;
     /// Directions whose combinations are the normals over a part of the turn, of either side: they do not
     /// depend on v.

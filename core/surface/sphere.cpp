@@ -136,13 +136,14 @@ bool Sphere::normalsLieWithin(std::uint32_t patch, const Region& region, double 
     }
     if (radius_ > 0.0) {
         const Vec3d axis = glm::normalize(corner[0] + corner[1] + corner[2]);
+        const base::AngleLimit limit(halfAngle);
         return std::all_of(corner.begin(), corner.end(),
-                           [&](const Vec3d& c) { return NormalCone::angleBetween(axis, c) <= halfAngle; });
+                           [&](const Vec3d& c) { return limit.holds(axis, c); });
     }
     for (Vec3d& c : corner) {
         c = normalAt(c);
     }
-    return coneAround(corner, halfAngle).halfAngle <= halfAngle;
+    return isWithinCone(corner, halfAngle);
 }
 
 RegionBounds Sphere::bounds(std::uint32_t patch, const Region& region) const {

@@ -260,6 +260,10 @@ RegionBounds SubdivisionSurface::bounds(std::uint32_t patch, const Region& regio
     return tree_->bounds(patch, region);
 }
 
+bool SubdivisionSurface::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
+    return tree_->normalsLieWithin(patch, region, halfAngle);
+}
+
 double SubdivisionSurface::area(std::uint32_t patch, const Region& region) const {
     return tree_->area(patch, region);
 }

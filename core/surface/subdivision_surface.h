@@ -32,6 +32,7 @@ class SubdivisionSurface final : public Surface {
     /// False only where the patch certainly curves one way.
     bool canSeeItself(std::uint32_t patch, bool back) const override;
     RegionBounds bounds(std::uint32_t patch, const Region& region) const override;
+    bool normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const override;
     double area(std::uint32_t patch, const Region& region) const override;
     std::optional<SurfaceHit> intersect(const Vec3d& origin, const Vec3d& direction, double tNear,
                                         double tFar) const override;

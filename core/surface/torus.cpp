@@ -116,7 +116,7 @@ RegionBounds Torus::bounds(std::uint32_t patch, const Region& region) const {
 bool Torus::normalsLieWithin(std::uint32_t patch, const Region& region, double halfAngle) const {
     const auto [lower, upper] = parameterBox(region);
     const Arc ring = ringArc(patch, lower.x, upper.x);
-    return coneAround(normalHull(ring, {patch >> 2, lower.y, upper.y}), halfAngle).halfAngle <= halfAngle;
+    return isWithinCone(normalHull(ring, {patch >> 2, lower.y, upper.y}), halfAngle);
 }
 
 double Torus::area(std::uint32_t patch, const Region& region) const {

@@ -79,7 +79,12 @@ std::array<Vec2d, 4> hullOf(const Arc& arc) {
             beyond * turnAt(arc.quarter, arc.from + 0.75 * length), turnAt(arc.quarter, arc.to)};
 }
 
-NormalCone coneAround(std::span<const Vec3d> directions, double enough) {
+namespace {
+
+/// Badoiu and Clarkson 2003: steps towards the farthest direction, ever shorter ones, approach the centre of
+/// the smallest ball about all. Axes come with the direction farthest from them, until `isEnough` says so.
+template <class IsEnough>
+void approachAxis(std::span<const Vec3d> directions, const IsEnough& isEnough) {
     std::array<Vec3d, 16> unit{};
     FLUXWALK_CHECK_LE(directions.size(), unit.size());
     Vec3d middle(0.0);
@@ -88,10 +93,7 @@ NormalCone coneAround(std::span<const Vec3d> directions, double enough) {
         middle += unit[i];
     }
     const std::span<const Vec3d> all(unit.data(), directions.size());
-    // Badoiu and Clarkson 2003: steps towards the farthest direction, ever shorter ones, approach the centre
-    // of the smallest ball about all.
     constexpr int kSteps = 24;
-    NormalCone best{{0.0, 1.0, 0.0}, kPi};
     Vec3d center = middle / static_cast<double>(all.size());
     for (int step = 1; step <= kSteps; ++step) {
         const double length = glm::length(center);
@@ -109,20 +111,42 @@ NormalCone coneAround(std::span<const Vec3d> directions, double enough) {
                 farthest = &n;
             }
         }
-        const double halfAngle = NormalCone::angleBetween(axis, *farthest);
-        if (halfAngle < best.halfAngle) {
-            best = {axis, halfAngle};
-            if (halfAngle <= enough) {
-                break;
-            }
+        if (isEnough(axis, *farthest)) {
+            break;
         }
         center += (*farthest - center) / static_cast<double>(step + 1);
     }
+}
+
+}  // namespace
+
+NormalCone coneAround(std::span<const Vec3d> directions, double enough) {
+    NormalCone best{{0.0, 1.0, 0.0}, kPi};
+    approachAxis(directions, [&](const Vec3d& axis, const Vec3d& farthest) {
+        const double halfAngle = NormalCone::angleBetween(axis, farthest);
+        if (halfAngle < best.halfAngle) {
+            best = {axis, halfAngle};
+        }
+        return best.halfAngle <= enough;
+    });
     // Only cones narrower than a half-space hold what their directions combine to.
     if (best.halfAngle >= 0.5 * kPi) {
         best.halfAngle = kPi;
     }
     return best;
+}
+
+bool isWithinCone(std::span<const Vec3d> directions, double halfAngle) {
+    if (halfAngle >= 0.5 * kPi) {
+        return coneAround(directions, halfAngle).halfAngle <= halfAngle;
+    }
+    const base::AngleLimit limit(halfAngle);
+    bool isWithin = false;
+    approachAxis(directions, [&](const Vec3d& axis, const Vec3d& farthest) {
+        isWithin = limit.holds(axis, farthest);
+        return isWithin;
+    });
+    return isWithin;
 }
 
 std::array<Vec2d, 2> parameterBox(const Region& region) {

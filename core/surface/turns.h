@@ -41,6 +41,9 @@ std::array<Vec2d, 4> hullOf(const Arc& arc);
 /// than the narrowest. They are at most 16. A cone no wider than `enough` (radians) is not narrowed further.
 NormalCone coneAround(std::span<const Vec3d> directions, double enough = 0.0);
 
+/// Whether coneAround() finds one no wider than `halfAngle` (radians) when that is enough, for less.
+bool isWithinCone(std::span<const Vec3d> directions, double halfAngle);
+
 /// Least box in (u,v) that holds a region, as its lower and upper corner.
 std::array<Vec2d, 2> parameterBox(const Region& region);
 
