@@ -45,7 +45,6 @@ class DisplayUpdate {
     /// Of one thread.
     struct Workspace {
         std::vector<display::Leaf> leaves;
-        std::vector<NodeId> stack;
     };
 
     /// Rebuilds what changed, as long as there is time; curved surfaces with the given curvatureAngle

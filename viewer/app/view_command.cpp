@@ -9,6 +9,7 @@
 
 #include "core/cli/camera_arguments.h"
 #include "core/cli/checkpointing.h"
+#include "core/cli/lit_meshes.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
 #include "core/cli/values.h"
@@ -161,7 +162,8 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
             cli::chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
         }
         solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
-        shown = {solved->scene, *solved->solver->show(detailFor(arguments.look.draw)), solved->scene};
+        shown = {solved->scene, cli::showSolved(*solved, detailFor(arguments.look.draw), arguments.output),
+                 solved->scene};
     }
     const std::vector<Shot> shots = planShots(arguments, file, [&] { return cameraFor(arguments, shown); });
     std::optional<image::Inspection> inspection;

@@ -1,0 +1,214 @@
+#include "core/image/display_gather.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "core/display/gathered_mesh.h"
+#include "core/image/sight.h"
+#include "core/solve/display_leaves.h"
+#include "core/solve/point_gather.h"
+
+namespace fluxwalk::image {
+
+namespace {
+
+constexpr std::uint32_t kNoLeaf = 0xffffffffu;
+/// Lines of sight across the picture, by which is found what is seen.
+constexpr std::uint32_t kLookWidth = 224;
+constexpr std::uint32_t kMostLookHeight = 448;
+
+bool isSame(const Look& a, const Look& b) {
+    return a.camera.position == b.camera.position && a.camera.forward == b.camera.forward &&
+           a.camera.up == b.camera.up && a.camera.verticalFov == b.camera.verticalFov && a.aspect == b.aspect;
+}
+
+}  // namespace
+
+DisplayGather::DisplayGather(const solve::Problem& problem, const DisplayGatherOptions& options)
+    : problem_(problem), points_(problem.hierarchy) {
+    listLeaves();
+    for (unsigned i = 0; i < problem.executor.threadCount(); ++i) {
+        gathers_.push_back(std::make_unique<LeafGather>(problem, points_, options.rays, options.sharpness));
+    }
+    order_.resize(leaves_.size());
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+        order_[i] = i;
+    }
+}
+
+DisplayGather::~DisplayGather() = default;
+
+void DisplayGather::listLeaves() {
+    const hierarchy::Hierarchy& h = problem_.hierarchy;
+    objects_.resize(problem_.scene->objects.size());
+    std::vector<std::vector<NodeId>> patchesOf(objects_.size());
+    for (const NodeId id : h.patches()) {
+        patchesOf[h.name(id).object].push_back(id);
+    }
+    leafOf_.assign(h.nodeCount(), kNoLeaf);
+    for (std::uint32_t o = 0; o < objects_.size(); ++o) {
+        objects_[o].first = leaves_.size();
+        solve::forLeaves(h, patchesOf[o], [&](NodeId leaf) {
+            leafOf_[base::index(leaf)] = static_cast<std::uint32_t>(leaves_.size());
+            leaves_.push_back({leaf, o, nullptr});
+        });
+        objects_[o].count = leaves_.size() - objects_[o].first;
+    }
+    problem_.executor.forRange(objects_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t o = begin; o < end; ++o) {
+            if (objects_[o].count > 0) {
+                objects_[o].topology =
+                    std::make_unique<display::PatchTopology>(*problem_.scene->objects[o].surface);
+            }
+        }
+    });
+}
+
+// Finds what is seen by lines through the picture, and orders what is left.
+void DisplayGather::arrange(const Look& look) {
+    const auto height = std::clamp(static_cast<std::uint32_t>(kLookWidth / std::max(look.aspect, 1e-3)), 1u,
+                                   kMostLookHeight);
+    const Lens lens(look.camera, kLookWidth, height);
+    std::vector<std::uint32_t> met(static_cast<std::size_t>(kLookWidth) * height, kNoLeaf);
+    problem_.executor.forRange(height, 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * kLookWidth; i < end * kLookWidth; ++i) {
+            const base::Vec2d pixel(static_cast<double>(i % kLookWidth) + 0.5,
+                                    static_cast<double>(i / kLookWidth) + 0.5);
+            const rays::Ray ray{base::Vec3(lens.eye()), 0.0f, base::Vec3(lens.directionAt(pixel)),
+                                std::numeric_limits<float>::max()};
+            const auto hit = problem_.rays.closest(ray);
+            if (!hit) {
+                continue;
+            }
+            const std::uint32_t object = base::index(hit->object);
+            const Vec3d at = Vec3d(ray.origin) + static_cast<double>(hit->t) * Vec3d(ray.direction);
+            const base::Vec2d uv = problem_.scene->objects[object].surface->locate(hit->patch, at);
+            if (const auto leaf = solve::findLeaf(problem_, object, hit->patch, hit->back, uv)) {
+                met[i] = leafOf_[base::index(*leaf)];
+            }
+        }
+    });
+    std::vector<std::uint32_t> pixels(leaves_.size(), 0);
+    for (const std::uint32_t leaf : met) {
+        if (leaf != kNoLeaf) {
+            ++pixels[leaf];
+        }
+    }
+    std::vector<double> distance(leaves_.size(), 0.0);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        distance[i] = glm::distance(Vec3d(problem_.hierarchy.shape(leaves_[i].node).center), lens.eye());
+    }
+    const auto rest = order_.begin() + static_cast<std::ptrdiff_t>(done_);
+    std::sort(rest, order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return pixels[a] != pixels[b]       ? pixels[a] > pixels[b]
+               : distance[a] != distance[b] ? distance[a] < distance[b]
+                                            : a < b;
+    });
+    const auto unseen =
+        std::find_if(rest, order_.end(), [&](std::uint32_t leaf) { return pixels[leaf] == 0; });
+    seenEnd_ = static_cast<std::size_t>(unseen - order_.begin());
+    seen_ = leaves_.size() - static_cast<std::size_t>(std::count(pixels.begin(), pixels.end(), 0u));
+    look_ = look;
+}
+
+std::size_t DisplayGather::seenPending() const {
+    return seenEnd_ > done_ ? seenEnd_ - done_ : 0;
+}
+
+void DisplayGather::work(const std::optional<Look>& look, Clock::time_point until) {
+    if (look && !(look_ && isSame(*look, *look_))) {
+        arrange(*look);
+    }
+    std::atomic<std::size_t> next = done_;
+    problem_.executor.forRange(gathers_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t thread = begin; thread < end; ++thread) {
+            while (Clock::now() < until) {
+                const std::size_t place = next++;
+                if (place >= order_.size()) {
+                    return;
+                }
+                LeafEntry& leaf = leaves_[order_[place]];
+                leaf.light = std::make_unique<const display::LeafLight>(
+                    gathers_[thread]->gather(*objects_[leaf.object].topology, leaf.node));
+            }
+        }
+    });
+    const std::size_t end = std::min(next.load(), order_.size());
+    for (std::size_t place = done_; place < end; ++place) {
+        objects_[leaves_[order_[place]].object].isOld = true;
+    }
+    done_ = end;
+}
+
+void DisplayGather::build(Object& object, std::uint32_t index, const display::MeshOptions& options) const {
+    std::vector<display::Leaf> leaves;
+    std::vector<const display::LeafLight*> lights;
+    for (std::size_t i = object.first; i < object.first + object.count; ++i) {
+        leaves.push_back(solve::displayLeaf(problem_.hierarchy, leaves_[i].node));
+        lights.push_back(leaves_[i].light.get());
+    }
+    object.meshes = display::buildGatheredMeshes(
+        *object.topology, index, problem_.scene->objects[index].material, leaves, lights, options);
+    object.isOld = false;
+}
+
+scene::LitMeshes DisplayGather::meshes(double displayAngle) {
+    display::MeshOptions options;
+    options.curvatureAngle = displayAngle;
+    std::vector<std::uint32_t> old;
+    for (std::uint32_t o = 0; o < objects_.size(); ++o) {
+        if (objects_[o].count > 0 && (objects_[o].isOld || displayAngle != displayAngle_)) {
+            old.push_back(o);
+        }
+    }
+    displayAngle_ = displayAngle;
+    // The largest first, so that threads end together.
+    std::stable_sort(old.begin(), old.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return objects_[a].count > objects_[b].count;
+    });
+    problem_.executor.forRange(old.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            build(objects_[old[i]], old[i], options);
+        }
+    });
+    scene::LitMeshes all;
+    for (const Object& object : objects_) {
+        all.insert(all.end(), object.meshes.meshes.begin(), object.meshes.meshes.end());
+    }
+    return all;
+}
+
+std::vector<const display::CellTable*> DisplayGather::tables() const {
+    std::vector<const display::CellTable*> all;
+    for (const Object& object : objects_) {
+        for (const display::CellTable& table : object.meshes.tables) {
+            all.push_back(&table);
+        }
+    }
+    return all;
+}
+
+std::uint64_t DisplayGather::pointCount() const {
+    std::uint64_t count = 0;
+    for (const auto& gather : gathers_) {
+        count += gather->pointCount();
+    }
+    return count;
+}
+
+std::uint64_t DisplayGather::bytes() const {
+    std::uint64_t bytes = leaves_.size() * sizeof(LeafEntry) + leafOf_.size() * sizeof(std::uint32_t) +
+                          order_.size() * sizeof(std::uint32_t);
+    for (const LeafEntry& leaf : leaves_) {
+        if (leaf.light) {
+            bytes += sizeof(display::LeafLight) +
+                     leaf.light->samples.capacity() * sizeof(display::LightSample) +
+                     leaf.light->splits.capacity() * sizeof(surface::Path);
+        }
+    }
+    return bytes;
+}
+
+}  // namespace fluxwalk::image
