@@ -82,8 +82,7 @@ class GatheredSide {
     }
 
     void askFor(const Cell& cell, const LeafLight* light) {
-        if (light == nullptr ||
-            !std::binary_search(light->splits.begin(), light->splits.end(), cell.path)) {
+        if (light == nullptr || !std::binary_search(light->splits.begin(), light->splits.end(), cell.path)) {
             asked_.push_back(cell);
             return;
         }

@@ -5,8 +5,8 @@
 
 namespace fluxwalk::display {
 
-/// Display meshes whose vertices have irradiance that was found at their points, where some was: cells are cut
-/// as the leaves' light asks for, balanced, and cut on for the eye.
+/// Display meshes whose vertices have irradiance that was found at their points, where some was: cells are
+/// cut as the leaves' light asks for, balanced, and cut on for the eye.
 ///
 /// `lights` is parallel to `leaves`, nullptr for a leaf whose light is not known: its vertices have what
 /// buildDisplayMeshes() gives them, but those that it shares with a leaf that is known. A vertex has the mean

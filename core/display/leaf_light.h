@@ -17,8 +17,8 @@ struct LightSample {
 
 /// Light at points of one leaf, so close to each other that triangles between them show it.
 struct LeafLight {
-    /// Corners and middles of the leaf and of all cells that it is cut into (of triangles the middles of their
-    /// sides), in the order of `at`, y before x.
+    /// Corners and middles of the leaf and of all cells that it is cut into (of triangles the middles of
+    /// their sides), in the order of `at`, y before x.
     std::vector<LightSample> samples;
     /// Parts of the leaf, by their paths, that are cut in four; ascending.
     std::vector<surface::Path> splits;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "core/base/random.h"
 #include "core/display/gathered_mesh.h"
 #include "core/image/sight.h"
 #include "core/solve/display_leaves.h"
@@ -18,6 +20,8 @@ constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 /// Lines of sight across the picture, by which is found what is seen.
 constexpr std::uint32_t kLookWidth = 224;
 constexpr std::uint32_t kMostLookHeight = 448;
+/// While the camera moves, finding that takes no more than about one part in this many of the time.
+constexpr int kLookShare = 6;
 
 bool isSame(const Look& a, const Look& b) {
     return a.camera.position == b.camera.position && a.camera.forward == b.camera.forward &&
@@ -25,6 +29,20 @@ bool isSame(const Look& a, const Look& b) {
 }
 
 }  // namespace
+
+std::uint64_t digestLight(const solve::Problem& problem) {
+    const hierarchy::Hierarchy& h = problem.hierarchy;
+    std::uint64_t digest = base::mix(problem.links.links.size());
+    for (std::uint32_t i = 0; i < h.nodeCount(); ++i) {
+        const hierarchy::Light& light = h.light(NodeId{i});
+        for (const Rgb& value : {light.irradiance, light.radiosity, light.emission}) {
+            for (int c = 0; c < 3; ++c) {
+                digest = base::combine(digest, std::bit_cast<std::uint32_t>(value[c]));
+            }
+        }
+    }
+    return digest;
+}
 
 DisplayGather::DisplayGather(const solve::Problem& problem, const DisplayGatherOptions& options)
     : problem_(problem), points_(problem.hierarchy) {
@@ -68,8 +86,8 @@ void DisplayGather::listLeaves() {
 
 // Finds what is seen by lines through the picture, and orders what is left.
 void DisplayGather::arrange(const Look& look) {
-    const auto height = std::clamp(static_cast<std::uint32_t>(kLookWidth / std::max(look.aspect, 1e-3)), 1u,
-                                   kMostLookHeight);
+    const auto height =
+        std::clamp(static_cast<std::uint32_t>(kLookWidth / std::max(look.aspect, 1e-3)), 1u, kMostLookHeight);
     const Lens lens(look.camera, kLookWidth, height);
     std::vector<std::uint32_t> met(static_cast<std::size_t>(kLookWidth) * height, kNoLeaf);
     problem_.executor.forRange(height, 4, [&](std::size_t begin, std::size_t end) {
@@ -118,8 +136,11 @@ std::size_t DisplayGather::seenPending() const {
 }
 
 void DisplayGather::work(const std::optional<Look>& look, Clock::time_point until) {
-    if (look && !(look_ && isSame(*look, *look_))) {
+    if (look && !(look_ && isSame(*look, *look_)) && Clock::now() >= lookDue_) {
+        const Clock::time_point start = Clock::now();
         arrange(*look);
+        const Clock::time_point now = Clock::now();
+        lookDue_ = now + kLookShare * (now - start);
     }
     std::atomic<std::size_t> next = done_;
     problem_.executor.forRange(gathers_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -165,9 +186,8 @@ scene::LitMeshes DisplayGather::meshes(double displayAngle) {
     }
     displayAngle_ = displayAngle;
     // The largest first, so that threads end together.
-    std::stable_sort(old.begin(), old.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return objects_[a].count > objects_[b].count;
-    });
+    std::stable_sort(old.begin(), old.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return objects_[a].count > objects_[b].count; });
     problem_.executor.forRange(old.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             build(objects_[old[i]], old[i], options);

@@ -23,6 +23,9 @@ struct DisplayGatherOptions {
     Sharpness sharpness;
 };
 
+/// Digest of what light is gathered from: the light of all nodes and the number of links.
+std::uint64_t digestLight(const solve::Problem& problem);
+
 /// Gathers all over the leaves of one solution. What comes out once all is gathered does not depend on the
 /// number of threads or on who looked on the way.
 class DisplayGather {
@@ -89,6 +92,7 @@ class DisplayGather {
     std::size_t seen_ = 0;
     std::size_t seenEnd_ = 0;  ///< place in `order_` behind the last that was seen
     std::optional<Look> look_;
+    Clock::time_point lookDue_{};  ///< from when on another look is taken over
     double displayAngle_ = -1.0;
 };
 

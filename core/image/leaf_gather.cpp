@@ -214,9 +214,9 @@ class LeafGather::Work {
             // The border of what stands there is sought.
             return seen > 0;
         }
-        const float reference = std::max({base::channelMean(sum) / static_cast<float>(all),
-                                          sharpness.dark * static_cast<float>(problem_.statistics.meanIrradiance),
-                                          1e-20f});
+        const float reference =
+            std::max({base::channelMean(sum) / static_cast<float>(all),
+                      sharpness.dark * static_cast<float>(problem_.statistics.meanIrradiance), 1e-20f});
         const float range = largestDifference(most, least);
         if (range > (part.isLeaf || !part.isForetold ? sharpness.range : kStep) * reference) {
             return true;
@@ -236,9 +236,9 @@ class LeafGather::Work {
         }
         float bend = 0.0f;
         for (unsigned k = 0; k < 3; ++k) {
-            bend = std::max(bend, largestDifference(light(part.middles[k]),
-                                                    0.5f * (light(part.corners[k]) +
-                                                            light(part.corners[(k + 1) % 3]))));
+            bend = std::max(
+                bend, largestDifference(light(part.middles[k]),
+                                        0.5f * (light(part.corners[k]) + light(part.corners[(k + 1) % 3]))));
         }
         return bend;
     }

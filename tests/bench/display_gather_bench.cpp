@@ -1,7 +1,7 @@
 // Display meshes with gathered light: time until all that a camera sees is there, points a second, memory.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <algorithm>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -68,7 +68,8 @@ void run(const Case& one, double error, unsigned threads, const image::DisplayGa
     const double buildingAll = secondsSince(start);
     fmt::print(
         "{:14} {:9} solve {:.2f} s  look {:.3f} s  seen {} leaves in {:.2f} s  all {} in {:.2f} s  {:.0f} "
-        "points/s  {:.1f} points a leaf  meshes {:.2f} s, {:.2f} s  vertices {} -> {}  light {:.1f} MB, process +{:.1f} MB\n",
+        "points/s  {:.1f} points a leaf  meshes {:.2f} s, {:.2f} s  vertices {} -> {}  light {:.1f} MB, "
+        "process +{:.1f} MB\n",
         one.scene, one.camera, solving, arranging, seenLeaves, seen, gather.leafCount(), all,
         static_cast<double>(gather.pointCount()) / all,
         static_cast<double>(gather.pointCount()) / static_cast<double>(gather.leafCount()), building,
