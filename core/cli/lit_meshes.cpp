@@ -3,7 +3,6 @@
 #include "core/base/photometry.h"
 #include "core/cli/interrupt.h"
 #include "core/cli/progress.h"
-#include "core/image/display_gather.h"
 
 namespace fluxwalk::cli {
 
@@ -12,19 +11,45 @@ namespace {
 /// Between looks at Ctrl-C.
 constexpr std::chrono::milliseconds kSlice{100};
 
-void gatherAll(image::DisplayGather& gather, const OutputArguments& output) {
-    const Interrupt interrupt;
-    Progress progress(stderr, chooseStyle(stderr, output.quiet));
-    while (!gather.isDone() && !Interrupt::isRequested()) {
-        gather.work(std::nullopt, image::DisplayGather::Clock::now() + kSlice);
-        progress.update(static_cast<double>(gather.doneCount()) / static_cast<double>(gather.leafCount()),
-                        "gathering light for display");
-    }
-}
+/// Gathers with progress until Ctrl-C.
+class Gathering {
+  public:
+    Gathering(const Solved& solved, const OutputArguments& output)
+        : gather_(solved.solver->problem()),
+          displayAngle_(solved.solver->options().displayAngle * base::kPi / 180.0),
+          progress_(stderr, chooseStyle(stderr, output.quiet)) {}
 
-double displayAngle(const Solved& solved) {
-    return solved.solver->options().displayAngle * base::kPi / 180.0;
-}
+    void all() {
+        while (!gather_.isDone() && !Interrupt::isRequested()) {
+            work(std::nullopt);
+            report(gather_.doneCount(), gather_.leafCount());
+        }
+    }
+
+    void seenFrom(const image::Look& look) {
+        do {
+            work(look);
+            report(gather_.seenCount() - gather_.seenPending(), gather_.seenCount());
+        } while (gather_.seenPending() > 0 && !Interrupt::isRequested());
+    }
+
+    scene::LitMeshes meshes() { return gather_.meshes(displayAngle_); }
+    std::vector<const display::CellTable*> tables() const { return gather_.tables(); }
+
+  private:
+    void work(const std::optional<image::Look>& look) {
+        gather_.work(look, image::DisplayGather::Clock::now() + kSlice);
+    }
+    void report(std::size_t done, std::size_t all) {
+        progress_.update(static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(1, all)),
+                         "gathering light for display");
+    }
+
+    const Interrupt interrupt_;
+    image::DisplayGather gather_;
+    double displayAngle_;
+    Progress progress_;
+};
 
 bool isGathered(const Solved& solved) {
     return solved.solver->options().display == solve::DisplayLight::gathered;
@@ -36,16 +61,24 @@ scene::LitMeshes makeLitMeshes(const Solved& solved, const OutputArguments& outp
     if (!isGathered(solved)) {
         return solved.solver->litMeshes();
     }
-    image::DisplayGather gather(solved.solver->problem());
-    gatherAll(gather, output);
-    return gather.meshes(displayAngle(solved));
+    Gathering gathering(solved, output);
+    gathering.all();
+    return gathering.meshes();
 }
 
-solve::Snapshot showSolved(const Solved& solved, const solve::Detail& detail, const OutputArguments& output) {
+solve::Snapshot showSolved(const Solved& solved, const solve::Detail& detail, const OutputArguments& output,
+                           std::span<const image::Look> looks) {
     solve::Snapshot snapshot = *solved.solver->show(detail);
-    if (isGathered(solved)) {
-        snapshot.meshes = makeLitMeshes(solved, output);
+    // What is coloured by its residual or by errors shows no light, and only these meshes have them.
+    if (!isGathered(solved) || detail.residuals || detail.errors) {
+        return snapshot;
     }
+    Gathering gathering(solved, output);
+    for (const image::Look& look : looks) {
+        gathering.seenFrom(look);
+    }
+    scene::LitMeshes meshes = gathering.meshes();
+    solve::showOn(snapshot, std::move(meshes), solved.solver->problem(), gathering.tables());
     return snapshot;
 }
 

@@ -116,31 +116,94 @@ class GatheredSide {
                                              : values_.centers[value - values_.values.size()];
     }
 
+    // Rays miss a little of the light of each leaf, not the same of its neighbours: what a leaf's corners are
+    // off from the mean of the leaves about them is spread over the leaf.
     void collectSamples() {
         const std::size_t count = values_.values.size() + cells_.size();
         states_.assign(count, State::unknown);
         sums_.assign(count, Rgb(0.0f));
         counts_.assign(count, 0);
+        forSamples([&](std::uint32_t value, const GridPoint&, const LightSample& sample, std::uint32_t) {
+            if (sample.isHidden) {
+                states_[value] = states_[value] == State::known ? State::known : State::hidden;
+                return;
+            }
+            states_[value] = State::known;
+            sums_[value] += sample.irradiance;
+            ++counts_[value];
+        });
+        takeSums(State::known);
+        const std::vector<Offsets> offsets = findOffsets();
+        forSamples(
+            [&](std::uint32_t value, const GridPoint& at, const LightSample& sample, std::uint32_t leaf) {
+                if (!sample.isHidden) {
+                    sums_[value] += glm::max(sample.irradiance + offsets[leaf].at(at), Rgb(0.0f));
+                    ++counts_[value];
+                }
+            });
+        takeSums(State::known);
+    }
+
+    // Calls visit(value, place, sample, leaf) for all that is known of the light at the cells' points.
+    template <class Visit>
+    void forSamples(const Visit& visit) const {
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const LeafLight* light = lights_[coarse_[cells_[i].source].source];
-            if (light == nullptr) {
+            const std::uint32_t leaf = coarse_[cells_[i].source].source;
+            if (lights_[leaf] == nullptr) {
                 continue;
             }
             forValues(i, [&](std::uint32_t value, const GridPoint& at) {
-                const LightSample* sample = findSample(*light, at);
-                if (sample == nullptr) {
-                    return;
+                if (const LightSample* sample = findSample(*lights_[leaf], at)) {
+                    visit(value, at, *sample, leaf);
                 }
-                if (sample->isHidden) {
-                    states_[value] = states_[value] == State::known ? State::known : State::hidden;
-                    return;
-                }
-                states_[value] = State::known;
-                sums_[value] += sample->irradiance;
-                ++counts_[value];
             });
         }
-        takeSums(State::known);
+    }
+
+    /// What is to be added to a leaf's light.
+    struct Offsets {
+        Cell leaf;
+        std::array<Rgb, 4> corners{};
+
+        Rgb at(const GridPoint& p) const {
+            const base::Vec2d place = placeIn(leaf, p);
+            return interpolateIn(leaf, corners, place);
+        }
+    };
+
+    std::vector<Offsets> findOffsets() const {
+        std::vector<Offsets> all(leaves_.size());
+        for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+            if (lights_[i] == nullptr) {
+                continue;
+            }
+            Offsets& own = all[i];
+            own.leaf = makeCell(topology_, leaves_[i].patch, leaves_[i].path, i);
+            const std::array<GridPoint, 4> at = cornersOf(own.leaf);
+            for (unsigned k = 0; k < own.leaf.cornerCount; ++k) {
+                const LightSample* sample = findSample(*lights_[i], at[k]);
+                const std::uint32_t value = valueOf(own.leaf, at[k]);
+                if (sample != nullptr && !sample->isHidden && value != kNone) {
+                    own.corners[k] = values_.values[value] - sample->irradiance;
+                }
+            }
+        }
+        return all;
+    }
+
+    static base::Vec2d placeIn(const Cell& cell, const GridPoint& at) {
+        const auto offset = [&](std::uint32_t to, std::uint32_t from, std::uint32_t extent) {
+            const double d = cell.inverted ? static_cast<double>(from) - to : static_cast<double>(to) - from;
+            return d / extent;
+        };
+        return {offset(at.x, cell.origin.x, cell.extent.x), offset(at.y, cell.origin.y, cell.extent.y)};
+    }
+
+    static Rgb interpolateIn(const Cell& cell, const std::array<Rgb, 4>& c, const base::Vec2d& place) {
+        const auto x = static_cast<float>(place.x);
+        const auto y = static_cast<float>(place.y);
+        return cell.cornerCount == 3 ? (1.0f - x - y) * c[0] + x * c[1] + y * c[2]
+                                     : glm::mix(glm::mix(c[0], c[1], x), glm::mix(c[3], c[2], x), y);
     }
 
     void takeSums(State state) {
@@ -226,23 +289,19 @@ class GatheredSide {
             }
             light[k] = valueAt(value);
         }
-        const auto offset = [&](std::uint32_t to, std::uint32_t from, std::uint32_t extent) {
-            const double d = asked.inverted ? static_cast<double>(from) - to : static_cast<double>(to) - from;
-            return d / extent;
-        };
-        const auto x = static_cast<float>(offset(at.x, asked.origin.x, asked.extent.x));
-        const auto y = static_cast<float>(offset(at.y, asked.origin.y, asked.extent.y));
+        const base::Vec2d place = placeIn(asked, at);
+        const Rgb between = interpolateIn(asked, light, place);
         if (asked.cornerCount == 3) {
-            return (1.0f - x - y) * light[0] + x * light[1] + y * light[2];
+            return between;
         }
-        const Rgb bilinear = glm::mix(glm::mix(light[0], light[1], x), glm::mix(light[3], light[2], x), y);
         const std::uint32_t middle = valueOf(asked, middleOf(corners[0], corners[2]));
         if (middle == kNone || states_[middle] != State::known) {
-            return bilinear;
+            return between;
         }
         // A tent on top, as high as the middle is above the corners.
-        const float inside = 1.0f - 2.0f * std::max(std::abs(x - 0.5f), std::abs(y - 0.5f));
-        return bilinear + inside * (valueAt(middle) - 0.25f * (light[0] + light[1] + light[2] + light[3]));
+        const auto inside =
+            static_cast<float>(1.0 - 2.0 * std::max(std::abs(place.x - 0.5), std::abs(place.y - 0.5)));
+        return between + inside * (valueAt(middle) - 0.25f * (light[0] + light[1] + light[2] + light[3]));
     }
 
     const PatchTopology& topology_;

@@ -17,9 +17,8 @@ namespace fluxwalk::image {
 namespace {
 
 constexpr std::uint32_t kNoLeaf = 0xffffffffu;
-/// Lines of sight across the picture, by which is found what is seen.
-constexpr std::uint32_t kLookWidth = 224;
-constexpr std::uint32_t kMostLookHeight = 448;
+/// High pictures have no more lines of sight than twice as many as they have across.
+constexpr std::uint32_t kHighest = 2;
 /// While the camera moves, finding that takes no more than about one part in this many of the time.
 constexpr int kLookShare = 6;
 
@@ -86,14 +85,15 @@ void DisplayGather::listLeaves() {
 
 // Finds what is seen by lines through the picture, and orders what is left.
 void DisplayGather::arrange(const Look& look) {
+    const std::uint32_t width = look.lines;
     const auto height =
-        std::clamp(static_cast<std::uint32_t>(kLookWidth / std::max(look.aspect, 1e-3)), 1u, kMostLookHeight);
-    const Lens lens(look.camera, kLookWidth, height);
-    std::vector<std::uint32_t> met(static_cast<std::size_t>(kLookWidth) * height, kNoLeaf);
+        std::clamp(static_cast<std::uint32_t>(width / std::max(look.aspect, 1e-3)), 1u, kHighest * width);
+    const Lens lens(look.camera, width, height);
+    std::vector<std::uint32_t> met(static_cast<std::size_t>(width) * height, kNoLeaf);
     problem_.executor.forRange(height, 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin * kLookWidth; i < end * kLookWidth; ++i) {
-            const base::Vec2d pixel(static_cast<double>(i % kLookWidth) + 0.5,
-                                    static_cast<double>(i / kLookWidth) + 0.5);
+        for (std::size_t i = begin * width; i < end * width; ++i) {
+            const base::Vec2d pixel(static_cast<double>(i % width) + 0.5,
+                                    static_cast<double>(i / width) + 0.5);
             const rays::Ray ray{base::Vec3(lens.eye()), 0.0f, base::Vec3(lens.directionAt(pixel)),
                                 std::numeric_limits<float>::max()};
             const auto hit = problem_.rays.closest(ray);

@@ -16,10 +16,12 @@ namespace fluxwalk::image {
 struct Look {
     scene::Camera camera;
     double aspect = 16.0 / 9.0;
+    /// Lines of sight across the picture, by which is found what is seen.
+    std::uint32_t lines = 224;
 };
 
 struct DisplayGatherOptions {
-    GatherRays rays{128, 256, 256};
+    GatherRays rays{128, 128, 256};
     Sharpness sharpness;
 };
 

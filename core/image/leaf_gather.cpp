@@ -22,6 +22,9 @@ constexpr double kInset = 8.0;
 constexpr double kMostInset = 0.0625;
 /// Where cells differ so much from one corner to another they are cut though they seem to be linear.
 constexpr float kStep = 0.5f;
+/// What may be noise in the correction of light (pixel_gather.h) as a part of it, with one ray to weak
+/// sources.
+constexpr float kNoiseOfRay = 0.8f;
 constexpr double kLeastPart = 1.0 / 512.0;
 constexpr double kLeastSide = 0.02;  ///< metres
 
@@ -35,10 +38,65 @@ display::PointKey keyOf(const GridPoint& p) {
     return {(static_cast<std::uint64_t>(p.y) << 32) | p.x, 0};
 }
 
-float largestDifference(const Rgb& a, const Rgb& b) {
-    const Rgb d = glm::abs(a - b);
+float largestOf(const Rgb& difference) {
+    const Rgb d = glm::abs(difference);
     return std::max({d.r, d.g, d.b});
 }
+
+PixelLight operator+(const PixelLight& a, const PixelLight& b) {
+    return {a.steady + b.steady, a.correction + b.correction};
+}
+
+PixelLight operator*(float factor, const PixelLight& a) {
+    return {factor * a.steady, factor * a.correction};
+}
+
+/// Least squares for quadratic functions of two coordinates.
+class TermSums {
+  public:
+    TermSums() {
+        for (std::size_t k = 0; k < kTerms; ++k) {
+            products_[k][k] = k == 0 ? 1e-6 : kRidge;
+        }
+    }
+
+    void add(const std::array<double, kTerms>& terms, const Rgb& value) {
+        for (std::size_t k = 0; k < kTerms; ++k) {
+            for (std::size_t l = 0; l < kTerms; ++l) {
+                products_[k][l] += terms[k] * terms[l];
+            }
+            values_[k] += terms[k] * Vec3d(value);
+        }
+    }
+
+    std::array<Rgb, kTerms> solve() {
+        for (std::size_t i = 0; i < kTerms; ++i) {
+            for (std::size_t j = i + 1; j < kTerms; ++j) {
+                const double factor = products_[j][i] / products_[i][i];
+                for (std::size_t k = i; k < kTerms; ++k) {
+                    products_[j][k] -= factor * products_[i][k];
+                }
+                values_[j] -= factor * values_[i];
+            }
+        }
+        std::array<Rgb, kTerms> result{};
+        for (std::size_t i = kTerms; i-- > 0;) {
+            Vec3d value = values_[i];
+            for (std::size_t j = i + 1; j < kTerms; ++j) {
+                value -= products_[i][j] * Vec3d(result[j]);
+            }
+            result[i] = Rgb(value / products_[i][i]);
+        }
+        return result;
+    }
+
+  private:
+    /// Few samples give little but their mean.
+    static constexpr double kRidge = 2.0;
+
+    std::array<std::array<double, kTerms>, kTerms> products_{};
+    std::array<Vec3d, kTerms> values_{};
+};
 
 }  // namespace
 
@@ -61,6 +119,10 @@ class LeafGather::Work {
         level[0].cell = display::makeCell(topology_, name_.patch, name_.path, 0);
         level[0].region = h_.region(leaf_);
         level[0].isLeaf = true;
+        const Cell& whole = level[0].cell;
+        const double towards = whole.inverted ? -0.5 : 0.5;
+        leafSize_ = {whole.extent.x, whole.extent.y};
+        leafMiddle_ = Vec2d(whole.origin.x, whole.origin.y) + towards * leafSize_;
         isHidden_ = !(h_.shape(leaf_).exposed > 0.0f);
         for (unsigned depth = 0; !level.empty(); ++depth) {
             for (Part& part : level) {
@@ -76,6 +138,7 @@ class LeafGather::Work {
             }
             level = std::move(next);
         }
+        takeOffNoise();
         std::sort(result.splits.begin(), result.splits.end());
         std::sort(samples_.begin(), samples_.end(),
                   [](const display::LightSample& a, const display::LightSample& b) {
@@ -92,7 +155,7 @@ class LeafGather::Work {
         bool isLeaf = false;
         /// What the cell that it is a quarter of says of its middle.
         bool isForetold = false;
-        Rgb foretold{0.0f};
+        PixelLight foretold;
         /// Samples at its corners; at the middle of quads, or at those of a triangle's sides.
         std::array<std::uint32_t, 4> corners{};
         std::array<std::uint32_t, 3> middles{};
@@ -113,6 +176,7 @@ class LeafGather::Work {
             return number;
         }
         samples_.push_back({at, Rgb(0.0f), true});
+        light_.emplace_back();
         if (isHidden_) {
             return number;
         }
@@ -125,9 +189,12 @@ class LeafGather::Work {
             return number;
         }
         samples_.back().isHidden = false;
-        const std::uint64_t key = base::combine(base::combine(h_.key(leaf_), at.x), at.y);
-        waiting_.push_back({number, {p.position, normal, normal, key}});
+        waiting_.push_back({number, {p.position, normal, normal, keyOfPoint(at)}});
         return number;
+    }
+
+    std::uint64_t keyOfPoint(const GridPoint& at) const {
+        return base::combine(base::combine(h_.key(leaf_), at.x), at.y);
     }
 
     // Whether a point lies in a solid, or in a gap too narrow to be shown.
@@ -177,6 +244,7 @@ class LeafGather::Work {
             }
             owner_.gather_.gather(sources_, {points.data(), count}, {light.data(), count});
             for (std::size_t i = 0; i < count; ++i) {
+                light_[waiting_[first + i].sample] = light[i];
                 samples_[waiting_[first + i].sample].irradiance = light[i].sum();
             }
         }
@@ -191,17 +259,17 @@ class LeafGather::Work {
         }
         unsigned seen = 0;
         unsigned all = 0;
-        Rgb sum(0.0f);
-        Rgb least(std::numeric_limits<float>::max());
-        Rgb most(0.0f);
+        PixelLight sum;
+        PixelLight least{Rgb(std::numeric_limits<float>::max()), Rgb(std::numeric_limits<float>::max())};
+        PixelLight most{-least.steady, -least.correction};
         const auto look = [&](std::uint32_t sample) {
             ++all;
             if (!samples_[sample].isHidden) {
-                const Rgb& e = samples_[sample].irradiance;
+                const PixelLight& e = light_[sample];
                 ++seen;
-                sum += e;
-                least = glm::min(least, e);
-                most = glm::max(most, e);
+                sum = sum + e;
+                least = {glm::min(least.steady, e.steady), glm::min(least.correction, e.correction)};
+                most = {glm::max(most.steady, e.steady), glm::max(most.correction, e.correction)};
             }
         };
         for (unsigned k = 0; k < part.cornerCount(); ++k) {
@@ -215,32 +283,68 @@ class LeafGather::Work {
             return seen > 0;
         }
         const float reference =
-            std::max({base::channelMean(sum) / static_cast<float>(all),
+            std::max({base::channelMean(sum.sum()) / static_cast<float>(all),
                       sharpness.dark * static_cast<float>(problem_.statistics.meanIrradiance), 1e-20f});
-        const float range = largestDifference(most, least);
+        const float range = sizeOf(most + -1.0f * least, reference);
         if (range > (part.isLeaf || !part.isForetold ? sharpness.range : kStep) * reference) {
             return true;
         }
-        return bendOf(part) > sharpness.bend * reference;
+        return bendOf(part, reference) > sharpness.bend * reference;
+    }
+
+    // Of a difference in light, without what may be noise.
+    float sizeOf(const PixelLight& difference, float reference) const {
+        return largestOf(difference.steady) +
+               std::max(0.0f, largestOf(difference.correction) - owner_.noise_ * reference);
     }
 
     // How far middles are from what is shown without them.
-    float bendOf(const Part& part) const {
-        const auto light = [&](std::uint32_t sample) -> const Rgb& { return samples_[sample].irradiance; };
+    float bendOf(const Part& part, float reference) const {
+        const auto& c = part.corners;
         if (part.cornerCount() == 4) {
-            const Rgb& middle = light(part.middles[0]);
-            const auto& c = part.corners;
-            const float bend =
-                largestDifference(middle, 0.25f * (light(c[0]) + light(c[1]) + light(c[2]) + light(c[3])));
-            return part.isForetold ? std::max(bend, largestDifference(middle, part.foretold)) : bend;
+            const PixelLight& middle = light_[part.middles[0]];
+            const PixelLight mean = 0.25f * (light_[c[0]] + light_[c[1]] + light_[c[2]] + light_[c[3]]);
+            const float bend = sizeOf(middle + -1.0f * mean, reference);
+            return part.isForetold ? std::max(bend, sizeOf(middle + -1.0f * part.foretold, reference)) : bend;
         }
         float bend = 0.0f;
         for (unsigned k = 0; k < 3; ++k) {
-            bend = std::max(
-                bend, largestDifference(light(part.middles[k]),
-                                        0.5f * (light(part.corners[k]) + light(part.corners[(k + 1) % 3]))));
+            const PixelLight mean = 0.5f * (light_[c[k]] + light_[c[(k + 1) % 3]]);
+            bend = std::max(bend, sizeOf(light_[part.middles[k]] + -1.0f * mean, reference));
         }
         return bend;
+    }
+
+    // Puts the samples' light together. The noisy part of it is smooth over a leaf but for the shadows of
+    // small things: what differs from a quadratic function by no more than noise does is taken for that.
+    void takeOffNoise() {
+        TermSums sums;
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            if (!samples_[i].isHidden) {
+                sums.add(termsAt(samples_[i].at), light_[i].correction);
+            }
+        }
+        const std::array<Rgb, kTerms> fit = sums.solve();
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            if (samples_[i].isHidden) {
+                continue;
+            }
+            const std::array<double, kTerms> terms = termsAt(samples_[i].at);
+            Rgb smooth(0.0f);
+            for (std::size_t k = 0; k < kTerms; ++k) {
+                smooth += static_cast<float>(terms[k]) * fit[k];
+            }
+            const Rgb rest = light_[i].correction - smooth;
+            const float noise = owner_.noise_ * base::channelMean(light_[i].sum());
+            const Rgb kept = glm::sign(rest) * glm::max(glm::abs(rest) - noise, Rgb(0.0f));
+            samples_[i].irradiance = glm::max(light_[i].steady + smooth + kept, Rgb(0.0f));
+        }
+    }
+
+    std::array<double, kTerms> termsAt(const GridPoint& at) const {
+        const double x = 2.0 * (static_cast<double>(at.x) - leafMiddle_.x) / leafSize_.x;
+        const double y = 2.0 * (static_cast<double>(at.y) - leafMiddle_.y) / leafSize_.y;
+        return {1.0, x, y, x * x, x * y, y * y};
     }
 
     bool canBeCut(const Part& part) const {
@@ -266,11 +370,11 @@ class LeafGather::Work {
             Part child;
             child.cell = display::partOf(part.cell, split, k);
             child.region = regions[k];
-            const display::LightSample& middle = samples_[part.middles[0]];
-            const display::LightSample& corner = samples_[part.corners[k]];
+            const std::uint32_t middle = part.middles[0];
+            const std::uint32_t corner = part.corners[k];
             if (part.cornerCount() == 4 && split == surface::Split::quarters) {
-                child.isForetold = !middle.isHidden && !corner.isHidden;
-                child.foretold = 0.5f * (middle.irradiance + corner.irradiance);
+                child.isForetold = !samples_[middle].isHidden && !samples_[corner].isHidden;
+                child.foretold = 0.5f * (light_[middle] + light_[corner]);
             }
             into.push_back(child);
         }
@@ -283,16 +387,23 @@ class LeafGather::Work {
     const surface::Surface& surface_;
     NodeId leaf_;
     hierarchy::ElementName name_;
+    Vec2d leafMiddle_{};  ///< in the patch's grid
+    Vec2d leafSize_{1.0};
     bool isHidden_ = false;
     display::PointTable known_;
     std::vector<display::LightSample> samples_;
+    std::vector<PixelLight> light_;  ///< parallel to them
     std::vector<Waiting> waiting_;
     LeafSources sources_;
 };
 
 LeafGather::LeafGather(const solve::Problem& problem, SourcePoints& points, const GatherRays& rays,
                        const Sharpness& sharpness)
-    : problem_(problem), sharpness_(sharpness), finder_(problem, points), gather_(problem, rays) {
+    : problem_(problem),
+      sharpness_(sharpness),
+      noise_(kNoiseOfRay / std::sqrt(static_cast<float>(std::max(1u, rays.weak)))),
+      finder_(problem, points),
+      gather_(problem, rays) {
     if (sharpness_.leastSide <= 0.0) {
         sharpness_.leastSide = std::min(kLeastSide, kLeastPart * problem.scene->bounds().diagonal());
     }

@@ -11,7 +11,7 @@ struct Sharpness {
     /// A cell is cut where its middle differs from what its corners say by more than this part of its light.
     float bend = 0.04f;
     /// A leaf also where its corners differ among each other by more: a shadow's edge may pass between.
-    float range = 0.15f;
+    float range = 0.3f;
     /// Darker places are judged as if they had this part of the scene's mean irradiance.
     float dark = 0.1f;
     /// No side is cut that is not longer (metres): 0 for a 512th of the scene's extent, 2 cm at most.
@@ -38,6 +38,7 @@ class LeafGather {
 
     const solve::Problem& problem_;
     Sharpness sharpness_;
+    float noise_;  ///< differences of light that count as noise, as a part of it
     SourceFinder finder_;
     PixelGather gather_;
     std::uint64_t pointCount_ = 0;

@@ -33,7 +33,8 @@ std::size_t countVertices(const scene::LitMeshes& meshes) {
     return count;
 }
 
-void run(const Case& one, double error, unsigned threads, const image::DisplayGatherOptions& options) {
+void run(const Case& one, double error, unsigned threads, bool isSeenOnly,
+         const image::DisplayGatherOptions& options) {
     const auto scene = std::make_shared<const scene::Scene>(*scene::buildScene(one.scene));
     solve::Options solveOptions;
     solveOptions.error = error;
@@ -59,7 +60,7 @@ void run(const Case& one, double error, unsigned threads, const image::DisplayGa
     gather.meshes(0.0698);
     const double building = secondsSince(start);
     start = Clock::now();
-    while (!gather.isDone()) {
+    while (!isSeenOnly && !gather.isDone()) {
         gather.work(look, Clock::now() + std::chrono::milliseconds(500));
     }
     const double all = seen + secondsSince(start);
@@ -72,8 +73,9 @@ void run(const Case& one, double error, unsigned threads, const image::DisplayGa
         "process +{:.1f} MB\n",
         one.scene, one.camera, solving, arranging, seenLeaves, seen, gather.leafCount(), all,
         static_cast<double>(gather.pointCount()) / all,
-        static_cast<double>(gather.pointCount()) / static_cast<double>(gather.leafCount()), building,
-        buildingAll, before, after, static_cast<double>(gather.bytes()) / 1e6,
+        static_cast<double>(gather.pointCount()) /
+            static_cast<double>(std::max<std::size_t>(1, gather.doneCount())),
+        building, buildingAll, before, after, static_cast<double>(gather.bytes()) / 1e6,
         (static_cast<double>(base::residentMemory()) - static_cast<double>(memory)) / 1e6);
 }
 
@@ -84,6 +86,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> scenes;
     double error = solve::Options{}.error;
     unsigned threads = 0;
+    bool isSeenOnly = false;
     image::DisplayGatherOptions options;
     app.add_option("--scene", scenes, "Only these.");
     app.add_option("--error", error, "Of the solution.");
@@ -92,12 +95,15 @@ int main(int argc, char** argv) {
     app.add_option("--shadow-rays", options.rays.weak);
     app.add_option("--levels", options.sharpness.mostLevels);
     app.add_option("--bend", options.sharpness.bend);
+    app.add_option("--range", options.sharpness.range);
+    app.add_option("--side", options.sharpness.leastSide);
+    app.add_flag("--seen-only", isSeenOnly, "Not what the camera does not see.");
     CLI11_PARSE(app, argc, argv);
     const std::vector<Case> cases{
         {"cornell-box", "front"}, {"gallery", "entrance"}, {"gallery", "vases"}, {"building:10000", "room"}};
     for (const Case& one : cases) {
         if (scenes.empty() || std::find(scenes.begin(), scenes.end(), one.scene) != scenes.end()) {
-            run(one, error, threads, options);
+            run(one, error, threads, isSeenOnly, options);
         }
     }
     return 0;

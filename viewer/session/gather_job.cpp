@@ -58,16 +58,9 @@ GatherStep GatherJob::step(const solve::Solver& solver, const image::Look& look,
 std::shared_ptr<const solve::Snapshot> GatherJob::show(const solve::Solver& solver,
                                                        const solve::Snapshot& solved) {
     auto snapshot = std::make_shared<solve::Snapshot>(solved);
-    snapshot->meshes = gather_->meshes(solver.options().displayAngle * base::kPi / 180.0);
+    scene::LitMeshes meshes = gather_->meshes(solver.options().displayAngle * base::kPi / 180.0);
+    solve::showOn(*snapshot, std::move(meshes), solver.problem(), gather_->tables());
     snapshot->finished = gather_->isDone();
-    if (!solved.elements.empty()) {
-        const std::vector<const display::CellTable*> tables = gather_->tables();
-        snapshot->elements.resize(snapshot->meshes.size());
-        for (std::size_t i = 0; i < tables.size(); ++i) {
-            snapshot->elements[i] = std::make_shared<const solve::MeshElements>(
-                solve::describeElements(solver.problem(), *snapshot->meshes[i], *tables[i], {}));
-        }
-    }
     return snapshot;
 }
 
