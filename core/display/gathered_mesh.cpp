@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/base/check.h"
 #include "core/display/balance.h"
@@ -49,7 +50,7 @@ class GatheredSide {
   private:
     enum class State : std::uint8_t { unknown, hidden, known };
 
-    const LeafLight* lightOf(const Cell& asked) const { return lights_[coarse_[asked.source].source]; }
+    std::uint32_t leafOf(std::size_t i) const { return coarse_[cells_[i].source].source; }
 
     // What buildDisplayMeshes() shows, carried over to the cells that the light asks for.
     void makeCells() {
@@ -65,32 +66,40 @@ class GatheredSide {
             Cell cell = makeCell(topology_, coarse_[i].patch, coarse_[i].path, i);
             askFor(cell, lights_[coarse_[i].source]);
         }
-        cells_ = asked_;
-        for (std::uint32_t i = 0; i < cells_.size(); ++i) {
-            cells_[i].source = i;
-        }
         points_ = PointTable(cells_.size() + cells_.size() / 4);
         balance(topology_, points_, cells_);
         vertices_ = collectVertices(topology_, points_, cells_, creaseAngle_);
-        askedOf_.reserve(cells_.size());
-        for (Cell& cell : cells_) {
-            askedOf_.push_back(cell.source);
-            cell.source = asked_[cell.source].source;
-        }
         values_ = carryValues({coarse_, coarseVertices, coarseValues}, planCarrying(cells_, vertices_),
                               vertices_.pointOfValue.size());
     }
 
+    static bool isCut(const LeafLight& light, surface::Path path) {
+        return std::binary_search(light.splits.begin(), light.splits.end(), path);
+    }
+
+    Cell partOfCell(const Cell& cell, unsigned part) const {
+        return partOf(cell, surface::splitAt(topology_.strips(cell.patch), surface::pathLevel(cell.path)),
+                      part);
+    }
+
     void askFor(const Cell& cell, const LeafLight* light) {
-        if (light == nullptr || !std::binary_search(light->splits.begin(), light->splits.end(), cell.path)) {
-            asked_.push_back(cell);
+        if (light == nullptr || !isCut(*light, cell.path)) {
+            cells_.push_back(cell);
             return;
         }
-        const surface::Split split =
-            surface::splitAt(topology_.strips(cell.patch), surface::pathLevel(cell.path));
         for (unsigned k = 0; k < 4; ++k) {
-            askFor(partOf(cell, split, k), light);
+            askFor(partOfCell(cell, k), light);
         }
+    }
+
+    // The smallest cell about a balanced one that has light at its corners.
+    Cell lightCellOf(std::size_t i) const {
+        const std::uint32_t leaf = leafOf(i);
+        Cell cell = makeCell(topology_, leaves_[leaf].patch, leaves_[leaf].path, leaf);
+        while (cell.path != cells_[i].path && isCut(*lights_[leaf], cell.path)) {
+            cell = partOfCell(cell, surface::pathStep(cells_[i].path, surface::pathLevel(cell.path)));
+        }
+        return cell;
     }
 
     // Calls visit(value, place) for what a cell shows, values behind those of vertices being cells' middles.
@@ -148,7 +157,7 @@ class GatheredSide {
     template <class Visit>
     void forSamples(const Visit& visit) const {
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const std::uint32_t leaf = coarse_[cells_[i].source].source;
+            const std::uint32_t leaf = leafOf(i);
             if (lights_[leaf] == nullptr) {
                 continue;
             }
@@ -249,13 +258,16 @@ class GatheredSide {
     // Balancing cuts cells further than their light asked for: there it is linear.
     void fillBetween() {
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const Cell& asked = asked_[askedOf_[i]];
-            if (lightOf(asked) == nullptr) {
+            if (lights_[leafOf(i)] == nullptr) {
                 continue;
             }
+            std::optional<Cell> around;
             forValues(i, [&](std::uint32_t value, const GridPoint& at) {
                 if (states_[value] == State::unknown) {
-                    if (const std::optional<Rgb> between = interpolate(asked, at)) {
+                    if (!around) {
+                        around = lightCellOf(i);
+                    }
+                    if (const std::optional<Rgb> between = interpolate(*around, at)) {
                         sums_[value] += *between;
                         ++counts_[value];
                     }
@@ -279,22 +291,22 @@ class GatheredSide {
 
     // Between the corners of a cell that the light asked for, and the middle of quads; nothing where one of
     // them lies deep in a solid.
-    std::optional<Rgb> interpolate(const Cell& asked, const GridPoint& at) {
-        const std::array<GridPoint, 4> corners = cornersOf(asked);
+    std::optional<Rgb> interpolate(const Cell& cell, const GridPoint& at) {
+        const std::array<GridPoint, 4> corners = cornersOf(cell);
         std::array<Rgb, 4> light{};
-        for (unsigned k = 0; k < asked.cornerCount; ++k) {
-            const std::uint32_t value = valueOf(asked, corners[k]);
+        for (unsigned k = 0; k < cell.cornerCount; ++k) {
+            const std::uint32_t value = valueOf(cell, corners[k]);
             if (value == kNone || states_[value] != State::known) {
                 return std::nullopt;
             }
             light[k] = valueAt(value);
         }
-        const base::Vec2d place = placeIn(asked, at);
-        const Rgb between = interpolateIn(asked, light, place);
-        if (asked.cornerCount == 3) {
+        const base::Vec2d place = placeIn(cell, at);
+        const Rgb between = interpolateIn(cell, light, place);
+        if (cell.cornerCount == 3) {
             return between;
         }
-        const std::uint32_t middle = valueOf(asked, middleOf(corners[0], corners[2]));
+        const std::uint32_t middle = valueOf(cell, middleOf(corners[0], corners[2]));
         if (middle == kNone || states_[middle] != State::known) {
             return between;
         }
@@ -309,9 +321,7 @@ class GatheredSide {
     std::span<const LeafLight* const> lights_;
     double creaseAngle_;
     std::vector<Cell> coarse_;
-    std::vector<Cell> asked_;  ///< their sources are coarse ones
-    std::vector<Cell> cells_;  ///< likewise
-    std::vector<std::uint32_t> askedOf_;
+    std::vector<Cell> cells_;  ///< their sources are coarse ones
     PointTable points_;
     MeshVertices vertices_;
     MeshValues values_;

@@ -45,12 +45,13 @@ GatherStep GatherJob::step(const solve::Solver& solver, const image::Look& look,
     const bool isSeenDone = std::exchange(wasSeenPending_, gather_->seenPending() > 0) && !wasSeenPending_;
     if (isNew && (shownOf_ != solved || isSeenDone || gather_->isDone() || Clock::now() >= due_)) {
         const Clock::time_point begin = Clock::now();
-        step.snapshot = showsNoLight(*solved) ? solved : show(solver, *solved);
+        shown_ = showsNoLight(*solved) ? solved : show(solver, *solved);
         shownOf_ = std::move(solved);
         shownDone_ = gather_->doneCount();
         const Clock::time_point now = Clock::now();
         due_ = now + std::max<Clock::duration>(kInterval, kShare * (now - begin));
     }
+    step.snapshot = shown_;
     step.isFinished = gather_->isDone();
     return step;
 }

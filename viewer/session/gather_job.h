@@ -18,7 +18,7 @@ struct GatherProgress {
 
 /// What came of a moment's work.
 struct GatherStep {
-    /// The solution with the light that is gathered; null where the last one still does.
+    /// The solution with the light that is gathered; the one before where there is no newer.
     std::shared_ptr<const solve::Snapshot> snapshot;
     GatherProgress progress;
     bool isFinished = true;  ///< nothing is left, and all of it was shown
@@ -37,7 +37,10 @@ class GatherJob {
     /// The solution may change: to be called before the solver goes on.
     void doubt() { isDoubtful_ = true; }
     /// The solver goes.
-    void forget() { gather_.reset(); }
+    void forget() {
+        gather_.reset();
+        shown_.reset();
+    }
 
   private:
     using Clock = image::DisplayGather::Clock;
@@ -47,7 +50,8 @@ class GatherJob {
     std::unique_ptr<image::DisplayGather> gather_;
     std::uint64_t digest_ = 0;  ///< of the solution that it gathers from
     bool isDoubtful_ = true;
-    std::shared_ptr<const solve::Snapshot> shownOf_;  ///< what the last snapshot was made of
+    std::shared_ptr<const solve::Snapshot> shown_;
+    std::shared_ptr<const solve::Snapshot> shownOf_;  ///< what it was made of
     std::size_t shownDone_ = 0;
     bool wasSeenPending_ = true;
     Clock::time_point due_{};  ///< of the next snapshot

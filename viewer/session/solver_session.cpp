@@ -183,6 +183,7 @@ void SolverSession::gather(std::unique_lock<std::mutex>& lock) {
     status_.gathered = step.progress;
     isGathered_ = step.isFinished;
     if (step.snapshot != nullptr) {
+        // Swapped, so that the old one is freed after the lock.
         std::swap(latest_, step.snapshot);
     }
     if (wake_) {
