@@ -21,14 +21,14 @@ class Gathering {
 
     void all() {
         while (!gather_.isDone() && !Interrupt::isRequested()) {
-            work(std::nullopt);
+            gather_.work(std::nullopt, image::DisplayGather::Clock::now() + kSlice);
             report(gather_.doneCount(), gather_.leafCount());
         }
     }
 
     void seenFrom(const image::Look& look) {
         do {
-            work(look);
+            gather_.workOnSeen(look, image::DisplayGather::Clock::now() + kSlice);
             report(gather_.seenCount() - gather_.seenPending(), gather_.seenCount());
         } while (gather_.seenPending() > 0 && !Interrupt::isRequested());
     }
@@ -37,9 +37,6 @@ class Gathering {
     std::vector<const display::CellTable*> tables() const { return gather_.tables(); }
 
   private:
-    void work(const std::optional<image::Look>& look) {
-        gather_.work(look, image::DisplayGather::Clock::now() + kSlice);
-    }
     void report(std::size_t done, std::size_t all) {
         progress_.update(static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(1, all)),
                          "gathering light for display");

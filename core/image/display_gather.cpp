@@ -142,12 +142,24 @@ void DisplayGather::work(const std::optional<Look>& look, Clock::time_point unti
         const Clock::time_point now = Clock::now();
         lookDue_ = now + kLookShare * (now - start);
     }
+    gatherTo(order_.size(), until);
+}
+
+void DisplayGather::workOnSeen(const Look& look, Clock::time_point until) {
+    if (!(look_ && isSame(look, *look_))) {
+        arrange(look);
+    }
+    gatherTo(std::max(done_, seenEnd_), until);
+}
+
+// The leaves of `order_` up to a place.
+void DisplayGather::gatherTo(std::size_t last, Clock::time_point until) {
     std::atomic<std::size_t> next = done_;
     problem_.executor.forRange(gathers_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t thread = begin; thread < end; ++thread) {
             while (Clock::now() < until) {
                 const std::size_t place = next++;
-                if (place >= order_.size()) {
+                if (place >= last) {
                     return;
                 }
                 LeafEntry& leaf = leaves_[order_[place]];
@@ -156,11 +168,11 @@ void DisplayGather::work(const std::optional<Look>& look, Clock::time_point unti
             }
         }
     });
-    const std::size_t end = std::min(next.load(), order_.size());
-    for (std::size_t place = done_; place < end; ++place) {
+    const std::size_t reached = std::min(next.load(), last);
+    for (std::size_t place = done_; place < reached; ++place) {
         objects_[leaves_[order_[place]].object].isOld = true;
     }
-    done_ = end;
+    done_ = reached;
 }
 
 void DisplayGather::build(Object& object, std::uint32_t index, const display::MeshOptions& options) const {

@@ -43,6 +43,9 @@ class DisplayGather {
     /// Gathers at leaves until the time has come or none is left, those first that are seen most of, then
     /// others near the camera.
     void work(const std::optional<Look>& look, Clock::time_point until);
+    /// The same for no more than what is seen, so that what comes out is a function of the look alone, or of
+    /// several that follow each other; until seenPending() is 0.
+    void workOnSeen(const Look& look, Clock::time_point until);
     bool isDone() const { return done_ == leaves_.size(); }
 
     std::size_t leafCount() const { return leaves_.size(); }
@@ -80,6 +83,7 @@ class DisplayGather {
 
     void listLeaves();
     void arrange(const Look& look);
+    void gatherTo(std::size_t last, Clock::time_point until);
     void build(Object& object, std::uint32_t index, const display::MeshOptions& options) const;
 
     const solve::Problem& problem_;

@@ -185,7 +185,7 @@ class LeafGather::Work {
         const double inset = std::min(kMostInset, kInset * problem_.rays.lift() / std::max(distance, 1e-300));
         const surface::SurfacePoint p = surface_.evaluate(name_.patch, uv + inset * (towards - uv));
         const Vec3d normal = name_.back ? -p.normal : p.normal;
-        if (lies(p.position, normal)) {
+        if (isCovered(p.position, normal)) {
             return number;
         }
         samples_.back().isHidden = false;
@@ -198,7 +198,7 @@ class LeafGather::Work {
     }
 
     // Whether a point lies in a solid, or in a gap too narrow to be shown.
-    bool lies(const Vec3d& position, const Vec3d& normal) const {
+    bool isCovered(const Vec3d& position, const Vec3d& normal) const {
         const auto hit = problem_.rays.closest(problem_.rays.halfLine(position, normal, normal));
         if (!hit) {
             return false;
@@ -254,7 +254,8 @@ class LeafGather::Work {
 
     bool mustBeCut(const Part& part) const {
         const Sharpness& sharpness = owner_.sharpness_;
-        if (!canBeCut(part)) {
+        if (!(longestSide(part) > sharpness.leastSide) ||
+            surface::pathLevel(part.cell.path) >= surface::deepestLevel(surface_, name_.patch)) {
             return false;
         }
         unsigned seen = 0;
@@ -347,10 +348,7 @@ class LeafGather::Work {
         return {1.0, x, y, x * x, x * y, y * y};
     }
 
-    bool canBeCut(const Part& part) const {
-        if (surface::pathLevel(part.cell.path) >= surface::deepestLevel(surface_, name_.patch)) {
-            return false;
-        }
+    double longestSide(const Part& part) const {
         std::array<Vec3d, 4> corners{};
         for (unsigned k = 0; k < part.cornerCount(); ++k) {
             corners[k] = surface_.evaluate(name_.patch, part.region.corners[k]).position;
@@ -359,7 +357,7 @@ class LeafGather::Work {
         for (unsigned k = 0; k < part.cornerCount(); ++k) {
             longest = std::max(longest, glm::distance(corners[k], corners[(k + 1) % part.cornerCount()]));
         }
-        return longest > owner_.sharpness_.leastSide;
+        return longest;
     }
 
     void cut(const Part& part, std::vector<Part>& into) const {
