@@ -25,6 +25,9 @@ constexpr float kStep = 0.5f;
 /// What may be noise in the correction of light (pixel_gather.h) as a part of it, with one ray to weak
 /// sources.
 constexpr float kNoiseOfRay = 0.8f;
+/// Gaps below this part of the least side are too narrow to be shown. Not more: below a ball of 20 cm the gap
+/// is still that narrow a whole side away from where it touches.
+constexpr double kNarrow = 0.05;
 constexpr double kLeastPart = 1.0 / 512.0;
 constexpr double kLeastSide = 0.02;  ///< metres
 
@@ -208,7 +211,7 @@ class LeafGather::Work {
             return true;
         }
         const scene::Material& material = problem_.scene->materials[problem_.scene->objects[object].material];
-        return static_cast<double>(hit->t) < 0.5 * owner_.sharpness_.leastSide && !material.isEmissive();
+        return static_cast<double>(hit->t) < kNarrow * owner_.sharpness_.leastSide && !material.isEmissive();
     }
 
     void place(Part& part) {
