@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/cli/core_commands.h"
+#include "core/cli/lit_meshes.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
 #include "core/io/lit_gltf.h"
@@ -32,7 +33,7 @@ void requireOutputs(const SolveArguments& arguments) {
 ExitCode runSolve(const SolveArguments& arguments) {
     requireOutputs(arguments);
     Solved solved = runSolver("solve", arguments.scene, arguments.solver, arguments.output);
-    const scene::LitMeshes meshes = solved.solver->litMeshes();
+    const scene::LitMeshes meshes = makeLitMeshes(solved, arguments.output);
     const std::shared_ptr<const scene::Scene> lit =
         scene::relightScene(solved.scene, solved.solver->options().lighting);
     writeOutput([&] { io::writeLitGltf(arguments.lit, *lit, meshes, {io::chooseExposure(*lit, meshes)}); });

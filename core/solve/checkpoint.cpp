@@ -70,6 +70,8 @@ constexpr std::array kPast = {
 constexpr const char* kPastLinks = "history/links";
 /// Limits of a machine or an evening are no part of a state.
 constexpr std::array<std::string_view, 2> kOwn = {"time-limit", "memory-limit"};
+/// Nor is how it is shown.
+constexpr std::string_view kShown = "display";
 
 template <class T>
 void addValue(base::NamedArrays& arrays, std::string name, T value, std::string unit = {}) {
@@ -78,6 +80,9 @@ void addValue(base::NamedArrays& arrays, std::string name, T value, std::string 
 
 void saveOptions(base::NamedArrays& arrays, const Options& options) {
     for (const OptionInfo& option : optionsTable()) {
+        if (option.name == kShown) {
+            continue;
+        }
         addValue(arrays, "options/" + std::string(option.name), option.get(options),
                  option.kind == OptionKind::fraction ? "" : std::string(option.unit));
     }
@@ -308,6 +313,9 @@ Options storedOptions(const base::NamedArrays& arrays, const Options& others, co
     checkKind(arrays, reader);
     Options options = others;
     for (const OptionInfo& option : optionsTable()) {
+        if (option.name == kShown) {
+            continue;
+        }
         const std::string name = "options/" + std::string(option.name);
         const double value = reader.value<double>(name);
         const bool isWhole = option.kind == OptionKind::integer || option.kind == OptionKind::choice ||

@@ -7,6 +7,7 @@
 #include "core/base/photometry.h"
 #include "core/base/random.h"
 #include "core/display/interpolate.h"
+#include "core/solve/display_leaves.h"
 
 namespace fluxwalk::solve {
 
@@ -44,38 +45,22 @@ void DisplayUpdate::rebuildObject(std::size_t o, const display::MeshOptions& opt
                                   Shown& shown) {
     const hierarchy::Hierarchy& h = problem_.hierarchy;
     std::vector<display::Leaf>& leaves = work.leaves;
-    std::vector<NodeId>& stack = work.stack;
     leaves.clear();
     // Flat objects are shown alike for any angle.
     std::uint64_t shapeDigest =
         isCurved_[o] != 0 ? base::mix(std::bit_cast<std::uint64_t>(options.curvatureAngle)) : 1;
     std::uint64_t digest = 1;
-    for (const NodeId patch : patchesOf_[o]) {
-        stack.push_back(patch);
-        while (!stack.empty()) {
-            const NodeId id = stack.back();
-            stack.pop_back();
-            if (!h.isLeaf(id)) {
-                for (unsigned c = 4; c-- > 0;) {
-                    stack.push_back(h.child(id, c));
-                }
-                continue;
-            }
-            const hierarchy::ElementName name = h.name(id);
-            const Rgb e = h.light(id).irradiance;
-            const hierarchy::Shape& shape = h.shape(id);
-            // What lies in a narrow gap is known to be dark; of what lies in a solid nothing is known.
-            const bool isDark = shape.isCovered && shape.exposedCells == 0;
-            const float exposed = isDark ? 1.0f : shape.exposed;
-            leaves.push_back({name.patch, name.back, name.path, e, exposed});
-            shapeDigest = base::mix(shapeDigest ^ name.path) + 2 * std::uint64_t{name.patch} +
-                          (name.back ? 1 : 0) +
-                          (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(exposed)) << 32);
-            digest = base::mix(digest ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
-                                         std::bit_cast<std::uint32_t>(e.g))) +
-                     std::bit_cast<std::uint32_t>(e.b);
-        }
-    }
+    forLeaves(h, patchesOf_[o], [&](NodeId id) {
+        const display::Leaf leaf = displayLeaf(h, id);
+        leaves.push_back(leaf);
+        shapeDigest = base::mix(shapeDigest ^ leaf.path) + 2 * std::uint64_t{leaf.patch} +
+                      (leaf.back ? 1 : 0) +
+                      (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(leaf.exposed)) << 32);
+        const Rgb& e = leaf.irradiance;
+        digest = base::mix(digest ^ (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(e.r)) << 32 |
+                                     std::bit_cast<std::uint32_t>(e.g))) +
+                 std::bit_cast<std::uint32_t>(e.b);
+    });
     digest = base::mix(digest ^ shapeDigest);
     if (leaves.empty() || digest == shown.digest) {
         return;

@@ -45,7 +45,6 @@ class DisplayUpdate {
     /// Of one thread.
     struct Workspace {
         std::vector<display::Leaf> leaves;
-        std::vector<NodeId> stack;
         display::MeshWorkspace meshes;
     };
 

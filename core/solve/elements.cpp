@@ -5,6 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/base/photometry.h"
+#include "core/solve/solver.h"
 #include "core/solve/sweep.h"
 
 namespace fluxwalk::solve {
@@ -80,6 +81,22 @@ MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh
     }
     result.edges = findEdges(mesh, result.elementOf);
     return result;
+}
+
+void showOn(Snapshot& snapshot, scene::LitMeshes meshes, const Problem& problem,
+            const std::vector<const display::CellTable*>& tables) {
+    FLUXWALK_CHECK_EQ(meshes.size(), tables.size());
+    snapshot.meshes = std::move(meshes);
+    if (snapshot.elements.empty()) {
+        return;
+    }
+    snapshot.elements.resize(tables.size());
+    problem.executor.forRange(tables.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            snapshot.elements[i] = std::make_shared<const MeshElements>(
+                describeElements(problem, *snapshot.meshes[i], *tables[i], {}));
+        }
+    });
 }
 
 std::vector<float> computeResiduals(Problem& problem) {

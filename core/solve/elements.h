@@ -11,6 +11,7 @@
 namespace fluxwalk::solve {
 
 struct Problem;
+struct Snapshot;
 
 /// What a snapshot shall tell beside the light.
 struct Detail {
@@ -46,6 +47,11 @@ struct ClusterBox {
 MeshElements describeElements(const Problem& problem, const scene::LitMesh& mesh,
                               const display::CellTable& table, const std::vector<float>& residuals,
                               const std::vector<float>& errors = {});
+
+/// Puts other meshes of the same solution into a snapshot, with their elements where it tells of elements
+/// (not of residuals and errors). `tables` say where the meshes' cells are.
+void showOn(Snapshot& snapshot, scene::LitMeshes meshes, const Problem& problem,
+            const std::vector<const display::CellTable*>& tables);
 
 /// By node: what one more sweep would change of the radiosity of leaves, lm/m2; 0 for other nodes. Leaves the
 /// problem as it was.

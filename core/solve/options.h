@@ -35,6 +35,13 @@ enum class ClusterLinks : std::uint8_t {
 /// gap.
 inline constexpr std::size_t kManyPatches = 2000;
 
+/// What light the vertices of the displayed mesh have. Changes nothing in a solve: solution and errors are
+/// the same.
+enum class DisplayLight : std::uint8_t {
+    interpolated,  ///< smooth between the means of the leaves
+    gathered       ///< found at the vertices themselves (image/display_gather.h), by whoever shows the mesh
+};
+
 /// How a node's radiosity follows from its children's (push copies irradiance in either).
 enum class PullRule : std::uint8_t {
     /// Means by true area: adjoint to push, power is conserved (ALGORITHMS 1.5, convention A).
@@ -64,6 +71,7 @@ struct Options {
     /// Displayed triangles of curved surfaces are refined until normals within an element's part lie within
     /// this angle of a common axis, in degrees. Costs no transport.
     double displayAngle = 4.0;
+    DisplayLight display = DisplayLight::interpolated;
     /// How clusters, and trees for shafts and RayEngine::clusters, are built. Fixed when a solver is made.
     TreeBuilder clusters = TreeBuilder::sah;
     /// What clusters are taken for in transport. Fixed when a solver is made.

@@ -108,6 +108,18 @@ std::vector<OptionInfo> makeTable() {
          .get = [](const Options& o) { return o.displayAngle; },
          .set = [](Options& o, double value) { o.displayAngle = value; }});
     table.push_back(
+        {.name = "display",
+         .kind = OptionKind::choice,
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .choices = {"interpolate", "gather"},
+         .explanation =
+             "Light of the displayed mesh, in the window, in its pictures and in lit files: 'interpolate' is "
+             "smooth between the elements and costs nothing; 'gather' finds it at each vertex by rays and "
+             "cuts the mesh finer where it changes, so that shadows are sharp.",
+         .get = [](const Options& o) { return static_cast<double>(o.display); },
+         .set = [](Options& o, double value) { o.display = static_cast<DisplayLight>(value); }});
+    table.push_back(
         {.name = "clusters",
          .kind = OptionKind::choice,
          .minimum = 0.0,

@@ -27,7 +27,7 @@ const std::vector<Layer> kLayers = {
       "core/display"}},
     {"core/image",
      {"core/base", "core/surface", "core/scene", "core/rays", "core/hierarchy", "core/transport",
-      "core/solve"}},
+      "core/display", "core/solve"}},
     {"core/cli",
      {"core/base", "core/surface", "core/scene", "core/rays", "core/io", "core/reference", "core/hierarchy",
       "core/transport", "core/display", "core/solve", "core/image"}},

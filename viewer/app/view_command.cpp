@@ -9,6 +9,7 @@
 
 #include "core/cli/camera_arguments.h"
 #include "core/cli/checkpointing.h"
+#include "core/cli/lit_meshes.h"
 #include "core/cli/output.h"
 #include "core/cli/run_solver.h"
 #include "core/cli/values.h"
@@ -141,6 +142,16 @@ std::vector<Shot> planShots(const ViewArguments& arguments, const std::filesyste
     return shots;
 }
 
+/// What pictures see, by one line for each two pixels.
+std::vector<image::Look> looksOf(const std::vector<Shot>& shots, gl::PixelSize size) {
+    std::vector<image::Look> looks;
+    for (const Shot& shot : shots) {
+        looks.push_back({shot.camera, static_cast<double>(size.width) / size.height,
+                         static_cast<std::uint32_t>(size.width / 2 + 1)});
+    }
+    return looks;
+}
+
 cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem::path& file) {
     // A bad path or name is told before the solving, which may take long.
     cli::requireWritable(planShots(arguments, file, [] { return scene::Camera{}; }).front().file);
@@ -161,9 +172,13 @@ cli::ExitCode takePicture(const ViewArguments& arguments, const std::filesystem:
             cli::chooseCamera(arguments.camera, cli::loadScene(arguments.scene), {});
         }
         solved = cli::runSolver("view", arguments.scene, arguments.solver, arguments.output);
-        shown = {solved->scene, *solved->solver->show(detailFor(arguments.look.draw)), solved->scene};
+        shown = {solved->scene, {}, solved->scene};
     }
     const std::vector<Shot> shots = planShots(arguments, file, [&] { return cameraFor(arguments, shown); });
+    if (solved) {
+        shown.snapshot = cli::showSolved(*solved, detailFor(arguments.look.draw), arguments.output,
+                                         looksOf(shots, arguments.size));
+    }
     std::optional<image::Inspection> inspection;
     if (arguments.look.pick) {
         inspection = inspectPixel(solved->solver->problem(), shots.front().camera, arguments.size,

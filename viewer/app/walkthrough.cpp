@@ -60,6 +60,7 @@ class Walkthrough {
     void takeSnapshot();
     void show(std::shared_ptr<const solve::Snapshot> snapshot);
     void followOverlays();
+    void followLight();
     void inspect(bool isClicked);
     void chooseMovement();
     void takeKeys();
@@ -187,6 +188,18 @@ void Walkthrough::followOverlays() {
         picture_.renew();
     }
     overlaid_ = look;
+}
+
+// Where light is gathered for the display, and for whom first.
+void Walkthrough::followLight() {
+    if (!session_) {
+        return;
+    }
+    const gl::PixelSize size = window_.framebufferSize();
+    const bool isGathered = options_.display == solve::DisplayLight::gathered && size.height > 0;
+    session_->setGathering(isGathered ? std::optional(image::Look{
+                                            walker_.camera(), static_cast<double>(size.width) / size.height})
+                                      : std::nullopt);
 }
 
 void Walkthrough::inspect(bool isClicked) {
@@ -404,6 +417,7 @@ void Walkthrough::step() {
     tour_.record({walker_, floor_, now_});
     drawInterface();
     followOverlays();
+    followLight();
     ImGui::Render();
     const bool isAdapting = picture_.adapt(walker_.camera(), settings_.exposure, now_, seconds);
     isAnimating_ = isMoving || isAdapting || now_ - lastMove_ < kStandstill;

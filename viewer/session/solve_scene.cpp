@@ -12,16 +12,20 @@ constexpr double kStillResidual = 0.01;
 Solving solveWith(SolverSource source) {
     // Functions are copyable, the solver is not.
     auto solver = std::make_shared<std::unique_ptr<solve::Solver>>();
+    // After the solver, which it looks at: it goes first.
+    auto job = std::make_shared<GatherJob>();
     Solving solving;
-    solving.solve = [source = std::move(source), solver](const solve::Options& options,
-                                                         const solve::Callbacks& callbacks) {
+    solving.solve = [source = std::move(source), solver, job](const solve::Options& options,
+                                                              const solve::Callbacks& callbacks) {
         if (*solver == nullptr || solve::needsNewSolver((*solver)->options(), options)) {
             // Before the new one is made, so that memory is needed once.
+            job->forget();
             solver->reset();
             *solver = source.make(options);
         } else {
             (*solver)->setOptions(options);
         }
+        job->doubt();
         solve::Callbacks all = callbacks;
         if (source.resumable) {
             all.resumable = [&](solve::Moment moment) {
@@ -47,6 +51,10 @@ Solving solveWith(SolverSource source) {
     solving.look.isFitForStill = [solver] {
         const solve::Statistics& statistics = (*solver)->statistics();
         return !statistics.history.empty() && statistics.residual < kStillResidual;
+    };
+    solving.look.gather = [solver, job](const image::Look& look,
+                                        std::shared_ptr<const solve::Snapshot> solved) {
+        return *solver == nullptr ? GatherStep{} : job->step(**solver, look, std::move(solved));
     };
     return solving;
 }

@@ -71,6 +71,26 @@ void SolverSession::setDetail(const solve::Detail& detail) {
     changed_.notify_all();
 }
 
+void SolverSession::setGathering(const std::optional<image::Look>& look) {
+    {
+        const std::lock_guard lock(mutex_);
+        const bool isTurned = look.has_value() != look_.has_value();
+        look_ = look;
+        if (!isTurned) {
+            return;
+        }
+        isGathered_ = false;
+        status_.gathered = {};
+        if (!look && solved_ != nullptr) {
+            latest_ = solved_;
+        }
+        changed_.notify_all();
+    }
+    if (wake_) {
+        wake_();
+    }
+}
+
 void SolverSession::ask(const rays::Ray& ray) {
     const std::lock_guard lock(mutex_);
     question_ = ray;
@@ -113,6 +133,9 @@ void SolverSession::enter(std::unique_lock<std::mutex>& lock, Phase phase) {
 void SolverSession::publish(std::shared_ptr<const solve::Snapshot> snapshot) {
     {
         const std::lock_guard lock(mutex_);
+        solved_ = snapshot;
+        isGathered_ = false;
+        status_.gathered = {};
         // Swapped, so that the old one is freed after the lock.
         std::swap(latest_, snapshot);
     }
@@ -169,13 +192,44 @@ void SolverSession::look(std::unique_lock<std::mutex>& lock) {
     if (std::exchange(hasNewDetail_, false) && solving_.look.show) {
         const solve::Detail detail = detail_;
         lock.unlock();
-        if (auto snapshot = solving_.look.show(detail)) {
-            publish(std::move(snapshot));
-        }
+        auto snapshot = solving_.look.show(detail);
         lock.lock();
+        const bool isOfGathered = look_ && solving_.look.gather && snapshot != nullptr;
+        if (isOfGathered) {
+            // The light that is shown stays: it comes with the detail from the next step.
+            solved_ = std::move(snapshot);
+            isGathered_ = false;
+        } else if (snapshot != nullptr) {
+            lock.unlock();
+            publish(std::move(snapshot));
+            lock.lock();
+        }
     }
     if (hasSolved_) {
         serveStill(lock);
+    }
+}
+
+// A moment's work on the display's light.
+void SolverSession::gather(std::unique_lock<std::mutex>& lock) {
+    const image::Look look = *look_;
+    const std::shared_ptr<const solve::Snapshot> solved = solved_;
+    lock.unlock();
+    GatherStep step = solving_.look.gather(look, solved);
+    lock.lock();
+    if (!look_ || solved != solved_) {
+        return;
+    }
+    status_.gathered = step.progress;
+    isGathered_ = step.isFinished;
+    if (step.snapshot != nullptr) {
+        // Swapped, so that the old one is freed after the lock.
+        std::swap(latest_, step.snapshot);
+    }
+    if (wake_) {
+        lock.unlock();
+        wake_();
+        lock.lock();
     }
 }
 
@@ -244,12 +298,17 @@ void SolverSession::run() {
                 solveOnce(lock);
                 continue;
             }
-            enter(lock, hasWork ? Phase::paused : Phase::finished);
+            if (const Phase rest = hasWork ? Phase::paused : Phase::finished; status_.phase != rest) {
+                enter(lock, rest);
+            }
             changed_.wait(lock, [this] {
-                return isStopping_ || hasNewDetail_ || question_ || (still_ && hasSolved_) ||
+                return isStopping_ || hasNewDetail_ || question_ || (still_ && hasSolved_) || mayGather() ||
                        (!isPaused_ && (isUnfinished_ || hasNewOptions_));
             });
             look(lock);
+            if (mayGather() && !isStopping_) {
+                gather(lock);
+            }
         }
         enter(lock, Phase::stopped);
     } catch (...) {

@@ -12,6 +12,7 @@
 
 #include "core/image/inspect.h"
 #include "core/solve/solver.h"
+#include "viewer/session/gather_job.h"
 #include "viewer/session/still_job.h"
 
 /// The solver in a thread of its own.
@@ -27,6 +28,8 @@ struct Lookers {
     TakeStill takeStill;
     /// Whether the light is far enough for a still while it is still being solved.
     std::function<bool()> isFitForStill;
+    /// Gathers light for the display for a moment (GatherJob::step).
+    std::function<GatherStep(const image::Look&, std::shared_ptr<const solve::Snapshot>)> gather;
 };
 
 /// Where its Solver comes from, and who is told when it could go on from its state (may be empty).
@@ -64,6 +67,7 @@ struct Status {
     double progress = 0.0;                             ///< in [0, 1], towards the requested error
     std::string stage;
     bool isStepping = false;  ///< goes on to the end of a level only
+    GatherProgress gathered;  ///< of the display's light; of 0 leaves while none is gathered
     std::exception_ptr failure;
 };
 
@@ -97,6 +101,9 @@ class SolverSession {
 
     /// What snapshots tell from now on; where the solver rests, a new one follows at once.
     void setDetail(const solve::Detail& detail);
+    /// Whether the display's light is to be gathered while the solver rests, what is seen from here first;
+    /// nothing for the light as it is solved.
+    void setGathering(const std::optional<image::Look>& look);
     /// Asks what is met along a ray. Answered after the next sweep, or at once where the solver rests; a
     /// later question takes the place of one that still waits.
     void ask(const rays::Ray& ray);
@@ -121,6 +128,8 @@ class SolverSession {
     void answer(std::unique_lock<std::mutex>& lock);
     void look(std::unique_lock<std::mutex>& lock);
     void serveStill(std::unique_lock<std::mutex>& lock);
+    bool mayGather() const { return look_ && !isGathered_ && solved_ != nullptr && solving_.look.gather; }
+    void gather(std::unique_lock<std::mutex>& lock);
 
     const Solving solving_;
     const std::function<void()> wake_;
@@ -132,6 +141,10 @@ class SolverSession {
     Status status_;
     solve::Detail detail_;
     bool hasNewDetail_ = false;
+    std::optional<image::Look> look_;  ///< while light is to be gathered
+    bool isGathered_ = false;
+    /// The newest snapshot as the solver made it.
+    std::shared_ptr<const solve::Snapshot> solved_;
     std::optional<rays::Ray> question_;
     std::shared_ptr<const Finding> finding_;
     /// The one that waits, or is being made.

@@ -161,7 +161,7 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
             actions.changedOptions |= drawLights(info, settings.lights, options);
         }
         if (beginSection("See why")) {
-            drawShown(info, settings);
+            drawShown(info, settings, options);
         }
         if (beginSection("Picture")) {
             actions.changedOptions |= drawPictureSettings(info, settings, options);

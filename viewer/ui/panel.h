@@ -66,7 +66,7 @@ PanelActions drawPanel(const PanelInfo& info, ViewSettings& settings, solve::Opt
 float rightOfPanel(const ViewSettings& settings, float scale);
 
 /// Sections of the panel, each in its own file.
-void drawShown(const PanelInfo& info, ViewSettings& settings);
+void drawShown(const PanelInfo& info, ViewSettings& settings, solve::Options& options);
 void drawStatistics(const PanelInfo& info);
 /// These return whether `options` changed.
 bool drawPictureSettings(const PanelInfo& info, ViewSettings& settings, solve::Options& options);

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include "viewer/ui/format.h"
+#include "viewer/ui/option_widget.h"
 #include "viewer/ui/panel.h"
 #include "viewer/ui/widgets.h"
 
@@ -47,6 +49,25 @@ void drawValues(const PanelInfo& info, render::DrawSettings& draw) {
     ImGui::Checkbox("lines##isolines", &draw.isolines);
 }
 
+// The solver need not go on for it: what is shown follows the option by itself.
+void drawLightOfDisplay(const session::Status& status, solve::Options& options) {
+    drawOption("display", "Light", options);
+    const session::GatherProgress& gathered = status.gathered;
+    if (options.display != solve::DisplayLight::gathered) {
+        return;
+    }
+    std::string text = "while the solver rests";
+    if (gathered.leaves > 0 && gathered.done == gathered.leaves) {
+        text = "all";
+    } else if (gathered.leaves > 0) {
+        const double part = 100.0 * static_cast<double>(gathered.done) / static_cast<double>(gathered.leaves);
+        text = (gathered.seenPending > 0 ? "" : "all that is seen, ") + formatValue(part) + " %";
+    }
+    showValue("   gathered", text,
+              "Elements whose light is found at their vertices, those that are seen first. Pause the solver "
+              "to have it gathered before it ends.");
+}
+
 // What only a solution that is here can tell.
 void drawOverlays(ViewSettings& settings) {
     render::DrawSettings& draw = settings.draw;
@@ -84,7 +105,7 @@ void drawOverlays(ViewSettings& settings) {
 
 }  // namespace
 
-void drawShown(const PanelInfo& info, ViewSettings& settings) {
+void drawShown(const PanelInfo& info, ViewSettings& settings, solve::Options& options) {
     using render::Shown;
     struct Kind {
         Shown shown;
@@ -119,6 +140,7 @@ void drawShown(const PanelInfo& info, ViewSettings& settings) {
         drawValues(info, draw);
     }
     if (info.session) {
+        drawLightOfDisplay(*info.session, options);
         drawOverlays(settings);
     }
 }
