@@ -14,7 +14,7 @@ using testing::Pixel;
 constexpr int kWallX = 700;
 constexpr int kWallY = 300;
 constexpr int kExposureX = 169;
-constexpr int kExposureY = 669;
+constexpr int kExposureY = 698;
 constexpr int kLampY = 425;
 constexpr int kLampDimX = 200;
 constexpr int kLampBrightX = 300;
