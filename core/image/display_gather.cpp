@@ -16,6 +16,9 @@ namespace fluxwalk::image {
 
 namespace {
 
+/// Parts of near leaves (SourcePoints) are found anew from here on.
+constexpr std::size_t kMostPartBytes = std::size_t{128} << 20;
+
 constexpr std::uint32_t kNoLeaf = 0xffffffffu;
 /// High pictures have no more lines of sight than twice as many as they have across.
 constexpr std::uint32_t kHighest = 2;
@@ -154,25 +157,30 @@ void DisplayGather::workOnSeen(const Look& look, Clock::time_point until) {
 
 // The leaves of `order_` up to a place.
 void DisplayGather::gatherTo(std::size_t last, Clock::time_point until) {
-    std::atomic<std::size_t> next = done_;
-    problem_.executor.forRange(gathers_.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t thread = begin; thread < end; ++thread) {
-            while (Clock::now() < until) {
-                const std::size_t place = next++;
-                if (place >= last) {
-                    return;
+    const std::size_t first = done_;
+    while (done_ < last && Clock::now() < until) {
+        std::atomic<std::size_t> next = done_;
+        problem_.executor.forRange(gathers_.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t thread = begin; thread < end; ++thread) {
+                while (Clock::now() < until && points_.partBytes() < kMostPartBytes) {
+                    const std::size_t place = next++;
+                    if (place >= last) {
+                        return;
+                    }
+                    LeafEntry& leaf = leaves_[order_[place]];
+                    leaf.light = std::make_unique<const display::LeafLight>(
+                        gathers_[thread]->gather(*objects_[leaf.object].topology, leaf.node));
                 }
-                LeafEntry& leaf = leaves_[order_[place]];
-                leaf.light = std::make_unique<const display::LeafLight>(
-                    gathers_[thread]->gather(*objects_[leaf.object].topology, leaf.node));
             }
+        });
+        done_ = std::min(next.load(), last);
+        if (points_.partBytes() >= kMostPartBytes) {
+            points_.forgetParts();
         }
-    });
-    const std::size_t reached = std::min(next.load(), last);
-    for (std::size_t place = done_; place < reached; ++place) {
+    }
+    for (std::size_t place = first; place < done_; ++place) {
         objects_[leaves_[order_[place]].object].isOld = true;
     }
-    done_ = reached;
 }
 
 void DisplayGather::build(Object& object, std::uint32_t index, const display::MeshOptions& options) const {

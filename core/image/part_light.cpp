@@ -65,8 +65,8 @@ std::unique_ptr<CellLight> PartLight::gather(NodeId leaf) {
     std::array<PixelPoint, kCells> points;
     std::array<PixelLight, kCells> found{};
     for (std::size_t i = 0; i < kCells; ++i) {
-        const SourcePart& part = points_.of(leaf, cellPath(i));
-        const surface::SurfacePoint at = h.surfaceOf(leaf).evaluate(name.patch, middleOf(part.region));
+        const surface::SurfacePoint at = h.surfaceOf(leaf).evaluate(
+            name.patch, middleOf(transport::partRegion(h.region(leaf), cellPath(i))));
         points[i].position = at.position;
         points[i].normal = points[i].shading = name.back ? -at.normal : at.normal;
         points[i].key = base::combine(h.key(leaf), i);

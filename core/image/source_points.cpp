@@ -102,12 +102,17 @@ SourcePoints::~SourcePoints() {
     for (const auto& points : points_) {
         delete points.load();
     }
-    for (const auto& quarters : quarters_) {
-        delete quarters.load();
-    }
+    forgetParts();
     for (const auto& light : light_) {
         delete light.load();
     }
+}
+
+void SourcePoints::forgetParts() {
+    for (auto& quarters : quarters_) {
+        delete quarters.exchange(nullptr);
+    }
+    partBytes_ = 0;
 }
 
 const transport::ElementPoints& SourcePoints::of(NodeId element) {
@@ -123,6 +128,7 @@ const SourcePart& SourcePoints::of(NodeId element, transport::Path part) {
     for (unsigned level = 0;; ++level) {
         Quarters& quarters = findOrMake(*place, [&] {
             auto made = std::make_unique<Quarters>();
+            partBytes_.fetch_add(sizeof(Quarters), std::memory_order_relaxed);
             const transport::Path whole = part >> (2 * (levels - level));
             for (unsigned k = 0; k < 4; ++k) {
                 SourcePart& quarter = made->parts[k];

@@ -36,6 +36,10 @@ class SourcePoints {
     const transport::ElementPoints& of(NodeId element);
     /// `part` is not the whole.
     const SourcePart& of(NodeId element, transport::Path part);
+    /// Bytes of all parts, 5 kB for four.
+    std::size_t partBytes() const { return partBytes_.load(std::memory_order_relaxed); }
+    /// While nobody else is at work here, and no sources that were found with these are left.
+    void forgetParts();
 
     /// `make` returns it as a std::unique_ptr the first time.
     template <class Make>
@@ -49,6 +53,7 @@ class SourcePoints {
     const hierarchy::Hierarchy& hierarchy_;
     std::vector<std::atomic<const transport::ElementPoints*>> points_;
     std::vector<std::atomic<Quarters*>> quarters_;
+    std::atomic<std::size_t> partBytes_{0};
     std::vector<std::atomic<CellLight*>> light_;
 };
 
