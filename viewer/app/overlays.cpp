@@ -132,4 +132,18 @@ std::optional<ui::Legend> fillOverlay(render::Overlay& overlay, const solve::Sna
     return colors ? std::optional(colors->legend()) : std::nullopt;
 }
 
+void drawLegends(const ui::Canvas& canvas, const render::DrawSettings& look,
+                 const std::optional<ui::Legend>& faces, bool hasVisibility, const render::ValueRange& range,
+                 const render::ColorMap& map) {
+    float width = 0.0f;
+    if (faces) {
+        width = ui::drawLegend(*faces, canvas);
+    } else if (look.shown == Shown::illuminance || look.shown == Shown::luminance) {
+        width = ui::drawLegend(ui::makeLegend(look, range, map), canvas);
+    }
+    if (hasVisibility) {
+        ui::drawLegend(ui::makeVisibilityLegend(map), canvas, width);
+    }
+}
+
 }  // namespace fluxwalk::app

@@ -16,4 +16,10 @@ solve::Detail detailFor(const render::DrawSettings& look);
 std::optional<ui::Legend> fillOverlay(render::Overlay& overlay, const solve::Snapshot& snapshot,
                                       const render::DrawSettings& look, const render::ColorMap& map);
 
+/// Legends of what is shown, side by side: of the faces' colours or of the light, and of the probe's
+/// visibility.
+void drawLegends(const ui::Canvas& canvas, const render::DrawSettings& look,
+                 const std::optional<ui::Legend>& faces, bool hasVisibility, const render::ValueRange& range,
+                 const render::ColorMap& map);
+
 }  // namespace fluxwalk::app

@@ -66,7 +66,6 @@ class Walkthrough {
     void takeKeys();
     bool move(double seconds);
     void keepPicture(bool asLight);
-    void drawLegends(const render::ValueRange& range);
     void drawInterface();
     StillTaker::Frame stillFrame();
 
@@ -331,21 +330,6 @@ StillTaker::Frame Walkthrough::stillFrame() {
     return {session_.get(), walker_.camera(), now_, now_ == lastMove_, shown_ ? shown_->sequence : 0, canvas};
 }
 
-void Walkthrough::drawLegends(const render::ValueRange& range) {
-    const ui::Canvas canvas{imgui_.scale(), kKeysHeight * imgui_.scale()};
-    const render::ColorMap& colorMap = picture_.renderer().colorMap();
-    float legendWidth = 0.0f;
-    if (faceLegend_) {
-        legendWidth = ui::drawLegend(*faceLegend_, canvas);
-    } else if (settings_.draw.shown == render::Shown::illuminance ||
-               settings_.draw.shown == render::Shown::luminance) {
-        legendWidth = ui::drawLegend(ui::makeLegend(settings_.draw, range, colorMap), canvas);
-    }
-    if (settings_.isProbing && settings_.inspection.visibility && inspector_.inspection() != nullptr) {
-        ui::drawLegend(ui::makeVisibilityLegend(colorMap), canvas, legendWidth);
-    }
-}
-
 void Walkthrough::drawInterface() {
     const float scale = imgui_.scale();
     ui::PanelInfo info;
@@ -371,7 +355,10 @@ void Walkthrough::drawInterface() {
     if (!stills_.isLarge()) {
         inspect(ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse &&
                 !tour_.isOrbiting());
-        drawLegends(info.shownRange);
+        const bool isProbed = settings_.isProbing && inspector_.inspection() != nullptr;
+        drawLegends({imgui_.scale(), kKeysHeight * imgui_.scale()}, settings_.draw, faceLegend_,
+                    isProbed && settings_.inspection.visibility, info.shownRange,
+                    picture_.renderer().colorMap());
     }
     stills_.draw(stillFrame(), actions.still);
     const float left = ui::rightOfPanel(settings_, scale);
